@@ -1,0 +1,146 @@
+# libnlcontact.  GNU make; `make help` lists the targets.  All output goes under $(B).
+.DELETE_ON_ERROR:
+.SUFFIXES:
+
+VERSION := $(shell sed -n 's/^.define NLC_VERSION_[A-Z]* //p' $(dir $(lastword $(MAKEFILE_LIST)))include/nlcontact.h | paste -sd. -)
+SO_MAJOR := 0
+
+S := $(patsubst %/,%,$(dir $(lastword $(MAKEFILE_LIST))))
+B ?= build
+PREFIX ?= /usr/local
+prefix ?= $(PREFIX)
+exec_prefix ?= $(prefix)
+includedir ?= $(prefix)/include
+libdir ?= $(exec_prefix)/lib
+datarootdir ?= $(prefix)/share
+mandir ?= $(datarootdir)/man
+DESTDIR ?=
+INSTALL ?= install
+CROSS_COMPILE ?=
+ifeq ($(origin CC),default)
+CC := $(CROSS_COMPILE)gcc
+endif
+ifeq ($(origin CXX),default)
+CXX := $(CROSS_COMPILE)g++
+endif
+ifeq ($(origin AR),default)
+AR := $(CROSS_COMPILE)ar
+endif
+PKG_CONFIG ?= pkg-config
+EMULATOR ?=
+
+# The user's CFLAGS come last.  WARNINGS=-Werror... is CI's affair.
+CFLAGS ?= -O3 -g
+WARNINGS ?= -Wall -Wextra
+ALL_CPPFLAGS = -I$(S)/include $(CPPFLAGS)
+ALL_CFLAGS = -std=c11 $(WARNINGS) -ffile-prefix-map=$(S)/= $(CFLAGS)
+# No contraction into fused multiply-adds behind our back, and no errno from sqrt: results and flags are as written.
+LIB_CFLAGS = -std=c11 $(WARNINGS) -fPIC -fvisibility=hidden -ffp-contract=off -fno-math-errno -ffile-prefix-map=$(S)/= $(CFLAGS)
+DEPFLAGS = -MMD -MP
+LIBS := -lm
+
+LIB_SRC := $(sort $(wildcard $(S)/lib/*.c))
+LIB_OBJ := $(LIB_SRC:$(S)/%.c=$(B)/%.o)
+STATIC := $(B)/libnlcontact.a
+SONAME := libnlcontact.so.$(SO_MAJOR)
+SHARED := $(B)/libnlcontact.so.$(VERSION)
+PC := $(B)/nlcontact.pc
+MAN := $(sort $(wildcard $(S)/man/*.3))
+
+.PHONY: all help lib demo bench packing check setup install uninstall dist clean
+all: lib packing ## build the libraries and the packing program
+lib: $(STATIC) $(SHARED) $(PC)
+
+help: ## list the targets
+	@sed -n 's/^\([a-z][a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(S)/Makefile | expand -t 20
+	@echo "  variables: CC CFLAGS PREFIX DESTDIR libdir B (build folder) EMULATOR (prefix for running tests)"
+
+$(B)/lib/%.o: $(S)/lib/%.c
+	@mkdir -p $(@D)
+	$(CC) $(DEPFLAGS) $(ALL_CPPFLAGS) $(LIB_CFLAGS) -c $< -o $@
+
+$(STATIC): $(LIB_OBJ)
+	rm -f $@
+	$(AR) rcD $@ $^
+
+$(SHARED): $(LIB_OBJ) $(S)/lib/nlcontact.map
+	$(CC) -shared -Wl,-soname,$(SONAME) -Wl,--version-script=$(S)/lib/nlcontact.map -Wl,-z,defs $(LDFLAGS) \
+		-o $@ $(LIB_OBJ) $(LIBS)
+	ln -sf $(@F) $(B)/$(SONAME)
+	ln -sf $(SONAME) $(B)/libnlcontact.so
+
+# Directories below the prefix are written relative to it, so that the file survives `pkg-config --define-prefix`.
+$(PC): $(S)/nlcontact.pc.in $(S)/include/nlcontact.h $(S)/Makefile
+	@mkdir -p $(@D)
+	sed -e 's|@prefix@|$(prefix)|' -e 's|@exec_prefix@|$(patsubst $(prefix)%,$${prefix}%,$(exec_prefix))|' \
+		-e 's|@libdir@|$(patsubst $(exec_prefix)/%,$${exec_prefix}/%,$(libdir))|' \
+		-e 's|@includedir@|$(patsubst $(prefix)/%,$${prefix}/%,$(includedir))|' -e 's|@version@|$(VERSION)|' $< > $@
+
+# ---- programs on a packing
+BENCH_SRC := $(sort $(wildcard $(S)/bench/*.c))
+BENCH_MAIN := $(filter %/packing.c %/bench.c,$(BENCH_SRC))
+BENCH_COMMON := $(patsubst $(S)/%.c,$(B)/%.o,$(filter-out $(BENCH_MAIN),$(BENCH_SRC)))
+
+$(B)/bench/%.o: $(S)/bench/%.c
+	@mkdir -p $(@D)
+	$(CC) $(DEPFLAGS) -I$(S)/bench $(ALL_CPPFLAGS) -D_POSIX_C_SOURCE=200809L $(ALL_CFLAGS) -c $< -o $@
+$(B)/bench/%: $(B)/bench/%.o $(BENCH_COMMON) $(STATIC)
+	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
+
+packing: $(B)/bench/packing
+demo: $(B)/bench/packing ## a real packing: forces with and without the coupling, a table, a picture, a ParaView file
+	@$(B)/bench/packing --svg $(B)/demo.svg --vtk $(B)/demo.vtk $(S)/bench/data/b_die125_rd0.80.csv
+PACKING ?= $(S)/bench/data/a_mono1000_periodic.csv
+bench: $(B)/bench/bench ## time the library against Algorithm 1 as printed; PACKING=file for a packing of your own
+	@$(B)/bench/bench $(PACKING)
+
+# ---- tests
+TEST_SRC := $(sort $(wildcard $(S)/tests/test_*.c))
+TEST_COMMON := $(patsubst $(S)/%.c,$(B)/%.o,$(filter-out $(TEST_SRC),$(sort $(wildcard $(S)/tests/*.c))))
+TESTS := $(TEST_SRC:$(S)/%.c=$(B)/%)
+TEST_SCRIPTS := $(sort $(wildcard $(S)/tests/test_*.sh))
+CHECK_CFLAGS = $(shell $(PKG_CONFIG) --cflags check 2>/dev/null)
+CHECK_LIBS = $(shell $(PKG_CONFIG) --libs check 2>/dev/null || echo -lcheck)
+
+$(B)/tests/%.o: $(S)/tests/%.c
+	@mkdir -p $(@D)
+	$(CC) $(DEPFLAGS) -I$(S)/tests -I$(S)/bench $(ALL_CPPFLAGS) -D_GNU_SOURCE -DNLC_SOURCE_DIR='"$(abspath $(S))"' $(CHECK_CFLAGS) \
+		-ffp-contract=off $(ALL_CFLAGS) -c $< -o $@
+$(B)/tests/%: $(B)/tests/%.o $(TEST_COMMON) $(BENCH_COMMON) $(STATIC)
+	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK_LIBS) $(LIBS)
+
+check: lib packing $(TESTS) ## build and run every test (needs what `make setup` installs)
+	@S='$(abspath $(S))' B='$(abspath $(B))' CC='$(CC)' CXX='$(CXX)' MAKE='$(MAKE)' EMULATOR='$(EMULATOR)' \
+		PKG_CONFIG='$(PKG_CONFIG)' VERSION='$(VERSION)' sh $(S)/tests/run $(abspath $(TESTS) $(TEST_SCRIPTS))
+
+setup: ## install what the tests need with the system's package manager
+	@sh $(S)/tests/setup
+
+# ---- installation
+install: lib ## install headers, libraries, man pages and nlcontact.pc below DESTDIR and PREFIX
+	$(INSTALL) -d $(DESTDIR)$(includedir) $(DESTDIR)$(libdir)/pkgconfig $(DESTDIR)$(mandir)/man3
+	$(INSTALL) -m 644 $(S)/include/nlcontact.h $(DESTDIR)$(includedir)/
+	$(INSTALL) -m 644 $(STATIC) $(DESTDIR)$(libdir)/
+	$(INSTALL) -m 755 $(SHARED) $(DESTDIR)$(libdir)/
+	ln -sf $(notdir $(SHARED)) $(DESTDIR)$(libdir)/$(SONAME)
+	ln -sf $(SONAME) $(DESTDIR)$(libdir)/libnlcontact.so
+	$(INSTALL) -m 644 $(PC) $(DESTDIR)$(libdir)/pkgconfig/
+	$(INSTALL) -m 644 $(MAN) $(DESTDIR)$(mandir)/man3/
+
+uninstall: ## remove what install put there
+	rm -f $(DESTDIR)$(includedir)/nlcontact.h $(DESTDIR)$(libdir)/libnlcontact.a $(DESTDIR)$(libdir)/libnlcontact.so \
+		$(DESTDIR)$(libdir)/$(SONAME) $(DESTDIR)$(libdir)/$(notdir $(SHARED)) $(DESTDIR)$(libdir)/pkgconfig/nlcontact.pc \
+		$(foreach m,$(notdir $(MAN)),$(DESTDIR)$(mandir)/man3/$(m))
+
+DISTNAME := nlcontact-$(VERSION)
+DIST_FILES = Makefile README COPYING nlcontact.pc.in include lib tests bench man
+dist: ## make a source archive, the same bytes every time
+	@mkdir -p $(B)
+	cd $(S) && tar --sort=name --owner=0 --group=0 --numeric-owner --mtime=@0 --format=gnu --exclude='./build*' \
+		--transform='s|^|$(DISTNAME)/|' -cf - $(DIST_FILES) | gzip -n -9 > $(abspath $(B))/$(DISTNAME).tar.gz
+	@echo $(B)/$(DISTNAME).tar.gz
+
+clean: ## remove everything that was built
+	rm -rf $(B)
+
+-include $(wildcard $(B)/lib/*.d $(B)/bench/*.d $(B)/tests/*.d)

@@ -1,0 +1,437 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * nlcontact.h - nonlocal normal contact forces between elastic spheres
+ *
+ * Classical contact laws treat the contacts of a grain as independent of each other.  In a dense packing they are not:
+ * every force on a grain moves the whole surface of that grain, and with it the overlap at all of its other contacts.
+ * This library computes the forces with that coupling, for any code that has its own particles, neighbours and integrator:
+ *
+ *     overlap, normal of every contact  -->  nlc_solve  -->  force of every contact  -->  nlc_assemble  -->  F of every particle
+ *
+ * References, by which equations are cited below:
+ *   [GC]  M. Gonzalez, A. M. Cuitino, "A nonlocal contact formulation for confined granular systems",
+ *         J. Mech. Phys. Solids 60 (2012) 333-350, doi:10.1016/j.jmps.2011.10.004
+ *   [MC]  N. Brodu, J. A. Dijksman, R. P. Behringer, "Multiple-contact discrete-element model for simulating dense
+ *         granular media", Phys. Rev. E 91 (2015) 032201, doi:10.1103/PhysRevE.91.032201
+ *
+ * Notation.  Contact c joins particles i and j.  Its contact normal n_c is the unit vector from i to j, its overlap is
+ * gamma_c = R_i + R_j - distance (> 0: overlap, < 0: gap), its force P_c >= 0 is compressive.  With a flat wall in the place
+ * of j, n_c points into the wall and gamma_c = R_i - distance.  The nonlocal displacement g_c is the sum of the two
+ * surfaces' displacement at the contact, caused by the other forces on i and on j, positive outward: it adds to the overlap,
+ *     P_c = n_H (gamma_c + g_c)_+^(3/2)                                                                    [GC] 10
+ *
+ * Units: SI or any other consistent system.  There is no absolute constant in the library.
+ *
+ * What holds for every function
+ *   - It never allocates, prints, exits, reads the environment, starts a thread or keeps state outside the caller's memory.
+ *     Different networks may be used by different threads at the same time; one network by one thread at a time, except
+ *     that functions taking a const nlc_network may run side by side.
+ *   - It does not touch errno or change a floating-point mode, and raises no invalid, divide-by-zero or overflow exception,
+ *     whatever the input, quiet NaN included.  (Inexact and underflow may be raised.)
+ *   - Arrays must not overlap each other.
+ *   - On error nothing but *info is changed: not one byte of the results.
+ *   - The same binary with the same input on the same kind of processor gives the same bits.
+ *
+ * Not promised: that results agree to the last bit between versions, compilers or kinds of processor (they agree to
+ * rounding, amplified by 1/(1 - lambda) close to the end of the stable branch, see nlc_solve).
+ */
+#ifndef NLCONTACT_H
+#define NLCONTACT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define NLC_VERSION_MAJOR 0
+#define NLC_VERSION_MINOR 1
+#define NLC_VERSION_PATCH 0
+
+#if defined(__cplusplus)
+#  if defined(__GNUC__) || defined(_MSC_VER)
+#    define NLC_RESTRICT __restrict
+#  else
+#    define NLC_RESTRICT
+#  endif
+#else
+#  define NLC_RESTRICT restrict
+#endif
+
+#if defined(__GNUC__)
+#  define NLC_API __attribute__((visibility("default")))
+#else
+#  define NLC_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---------------------------------------------------------------------------------------------------------- status -- */
+
+/*
+ * nlc_status - what a function returns: 0 is success; negative an error, nothing changed; positive one or more warning
+ * bits, the results are usable.
+ *
+ * X(name, value, text, what info.culprit holds).  The one list that the codes, nlc_strerror and the tests are made from.
+ */
+#define NLC_STATUS_LIST(X)                                                                                                  \
+    X(NLC_OK,                     0, "success",                                                          "-1")              \
+    X(NLC_ERROR_NULL,            -1, "a required argument is NULL",                                      "argument, from 0")\
+    X(NLC_ERROR_NULL_FIELD,      -2, "a required pointer in nlc_particles is NULL",                      "field's offset")  \
+    X(NLC_ERROR_STRUCT_SIZE,     -3, "struct_size is not that of any version's struct",                  "argument, from 0")\
+    X(NLC_ERROR_RESERVED,        -4, "bytes beyond the fields that this version knows are not zero",     "argument, from 0")\
+    X(NLC_ERROR_COUNT,           -5, "a count is negative or too large",                                 "argument, from 0")\
+    X(NLC_ERROR_STRIDE,          -6, "a stride is shorter than an element or overflows",                 "offset, argument")\
+    X(NLC_ERROR_MEMORY_SIZE,     -7, "the memory given is smaller than nlc_network_size says",           "bytes needed")    \
+    X(NLC_ERROR_ALIGNMENT,       -8, "the memory given is not aligned to 8 bytes",                       "address modulo 8")\
+    X(NLC_ERROR_NETWORK,         -9, "not a network made by nlc_network_init",                           "-1")              \
+    X(NLC_ERROR_MODEL,          -10, "no such model",                                                    "the number given")\
+    X(NLC_ERROR_NOT_AVAILABLE,  -11, "the model exists, but not in this version of the library",         "the number given")\
+    X(NLC_ERROR_METHOD,         -12, "no such method",                                                   "the number given")\
+    X(NLC_ERROR_OPTION,         -13, "an option is NaN, infinite, negative or unknown",                  "field's offset")  \
+    X(NLC_ERROR_RADIUS,         -14, "a radius is not positive and finite",                              "particle")        \
+    X(NLC_ERROR_MATERIAL,       -15, "a material index is out of range",                                 "particle or wall")\
+    X(NLC_ERROR_YOUNG,          -16, "a Young's modulus is not positive",                                "material")        \
+    X(NLC_ERROR_POISSON,        -17, "a Poisson's ratio is outside [0, 0.5]",                            "material")        \
+    X(NLC_ERROR_INDEX,          -18, "a particle or wall index is out of range",                         "contact")         \
+    X(NLC_ERROR_WALL_WALL,      -19, "a contact joins two walls",                                        "contact")         \
+    X(NLC_ERROR_RIGID_RIGID,    -20, "a contact joins two rigid bodies",                                 "contact")         \
+    X(NLC_ERROR_STIFFNESS,      -21, "a contact stiffness is not positive and finite",                   "contact")         \
+    X(NLC_ERROR_OVERLAP,        -22, "an overlap is not finite",                                         "contact")         \
+    X(NLC_ERROR_NORMAL,         -23, "a contact normal is not finite or not of unit length",             "contact")         \
+    X(NLC_ERROR_NONLOCAL,       -24, "a nonlocal displacement is not finite",                            "contact")         \
+    X(NLC_ERROR_FORCE,          -25, "a contact force is not finite",                                    "contact")         \
+    X(NLC_ERROR_TOTAL_FORCE,    -26, "a force to be added to is not finite",                             "particle or wall")\
+    X(NLC_ERROR_COINCIDENT,     -27, "two contacts of one particle lie in the same direction",           "contact")         \
+    X(NLC_ERROR_RANGE,          -28, "a result is beyond the range of double",                           "contact or -1")   \
+    X(NLC_WARNING_ROUNDING,       1, "rounding keeps the forces from reaching the tolerance",            "-1")              \
+    X(NLC_WARNING_NOT_CONVERGED,  2, "not converged: forces are finite but miss the tolerance",          "-1")
+
+typedef int32_t nlc_status;
+
+enum {
+#define NLC_STATUS_ENUM(name, value, text, culprit) name = value,
+    NLC_STATUS_LIST(NLC_STATUS_ENUM)
+#undef NLC_STATUS_ENUM
+    NLC_STATUS_MAX = 0x7fffffff /* makes the values of the list int on every compiler; never returned */
+};
+
+/*
+ * nlc_strerror - the text of a status.
+ *
+ * status   any value; of several warning bits the most severe (highest) one is named.
+ * Returns a constant string, "unknown status" for a value that is not in the list; never NULL.
+ */
+NLC_API const char *nlc_strerror(nlc_status status);
+
+/*
+ * nlc_version - the version of the library that is running, "major.minor.patch".  Compare with NLC_VERSION_*, the version
+ * of the header.
+ */
+NLC_API const char *nlc_version(void);
+
+/* --------------------------------------------------------------------------------------------------- scalar functions --
+ *
+ * Pure functions of their arguments.  A NaN among them, or a value outside the stated domain, gives NaN; a result too large
+ * for double gives INFINITY (no exception is raised in either case).  No intermediate result overflows or underflows where
+ * the result itself is representable.  R = INFINITY is a flat side, E = INFINITY a rigid one; every other infinite argument is
+ * outside the domain.  Poisson's ratio: 0 <= nu <= 0.5, on a rigid side any number.
+ *
+ * Accuracy: worst error found in units in the last place (ulp) of the exact result, over wide random and systematic sweeps
+ * of every argument including subnormal numbers (tests/test_scalar.c), with the C library's correctly working sqrt and fma.
+ */
+
+/*
+ * nlc_hertz_stiffness - n_H of the Hertz law P = n_H overlap^(3/2).                                             [GC] 9
+ *
+ *     1/n_H = (3/4) [ (1-nu1^2)/E1 + (1-nu2^2)/E2 ] (1/R1 + 1/R2)^(1/2)
+ *
+ * E1, E2     Young's moduli > 0, at most one INFINITY [Pa]
+ * nu1, nu2   Poisson's ratios in [0, 0.5]; not looked at on a rigid side, except that NaN gives NaN
+ * R1, R2     radii > 0, at most one INFINITY [m]
+ * Returns n_H [N m^(-3/2)]; NaN for two rigid or two flat sides.  Worst error 2.6 ulp.  Exchanging the sides changes no bit.
+ */
+NLC_API double nlc_hertz_stiffness(double E1, double nu1, double R1, double E2, double nu2, double R2);
+
+/*
+ * nlc_hertz_force - the Hertz law, P = n_H overlap_+^(3/2).                                                    [GC] 10
+ *
+ * stiffness   n_H > 0 [N m^(-3/2)], finite
+ * overlap     overlap, or overlap plus nonlocal displacement [m]; <= 0 (a gap) gives 0
+ * Returns the force [N].  Worst error 1.4 ulp.
+ */
+NLC_API double nlc_hertz_force(double stiffness, double overlap);
+
+/*
+ * nlc_hertz_overlap - the inverse, overlap = (P / n_H)^(2/3).                                                  [GC] 7
+ *
+ * stiffness   n_H > 0 [N m^(-3/2)], finite
+ * force       P >= 0 [N]
+ * Returns the overlap [m]; NaN for a negative force.  Worst error 0.9 ulp.
+ */
+NLC_API double nlc_hertz_overlap(double stiffness, double force);
+
+/*
+ * nlc_contact_radius - radius a of the contact circle.                                                         [GC] 8
+ *
+ *     a^3 = (3 P / 4) [ (1-nu1^2)/E1 + (1-nu2^2)/E2 ] / (1/R1 + 1/R2)
+ *
+ * force   P >= 0 [N];  E1 ... R2   as for nlc_hertz_stiffness
+ * Returns a [m]; NaN for a negative force, two rigid or two flat sides.  Worst error 1.5 ulp.  Exchanging the sides changes
+ * no bit.
+ */
+NLC_API double nlc_contact_radius(double force, double E1, double nu1, double R1, double E2, double nu2, double R2);
+
+/*
+ * nlc_contact_displacement - displacement of one surface inside its contact circle, into the body.             [GC] 1
+ *
+ *     u_z = 3 P (1-nu^2) (2 a^2 - r^2) / (8 a^3 E),   0 <= r <= a
+ *
+ * force    P, any sign [N];  radius   a > 0, finite [m];  r   distance from the centre of the circle [m]
+ * E, nu    Young's modulus [Pa] (INFINITY gives 0), Poisson's ratio
+ * Returns u_z [m], > 0 into the body for a compressive force; NaN for r outside [0, a].  Worst error 3.2 ulp.
+ */
+NLC_API double nlc_contact_displacement(double force, double radius, double r, double E, double nu);
+
+/*
+ * nlc_nonlocal_displacement - normal displacement of a sphere's surface caused by a force elsewhere on it.     [GC] 5
+ *
+ *     w = (1+nu) P / (4 pi R E) [ -2(1-nu) - 2(1-2nu) s + (7-8nu) s^2 ] / s,   s = sin(theta/2)
+ *
+ * force    P, compressive > 0, any sign [N]
+ * theta    angle, seen from the centre, between the force and the point looked at, 0 < theta <= pi [rad]
+ * R, E     radius and Young's modulus [m, Pa]; INFINITY gives 0: a flat or rigid side has no nonlocal displacement (for a
+ *          flat elastic one that is a convention, since its displacement would need positions)
+ * nu       Poisson's ratio
+ * Returns w [m], > 0 outward: towards the neighbour, so it adds to the overlap.  The expression has a zero (s = 0.645 at
+ * nu = 0.3), so accuracy is relative to the sum of the absolute terms: worst error 2.6 ulp of it.
+ */
+NLC_API double nlc_nonlocal_displacement(double force, double theta, double R, double E, double nu);
+
+/*
+ * nlc_nonlocal_displacement_between - the same from two outward unit normals instead of the angle.             [GC] 5
+ *
+ * s = |n_c - n_d| / 2 keeps all digits for neighbouring contacts, where an angle from a dot product has lost half of them.
+ *
+ * n_c, n_d   [3] unit vectors from the particle's centre to the point looked at and to the force: | |n|^2 - 1 | <= 1e-6
+ * Returns w [m]; NaN if a normal is not a unit vector or both are the same.  Exchanging n_c and n_d changes no bit.
+ * Worst error 4.2 ulp of the sum of the absolute terms.
+ */
+NLC_API double nlc_nonlocal_displacement_between(double force, const double n_c[3], const double n_d[3], double R, double E,
+                                                 double nu);
+
+/*
+ * nlc_half_space_displacement - displacement at contact c caused by the force of contact k, by the point force on a
+ * half-space.                                                                                                  [MC] 1
+ *
+ *     w = -G (1+nu) F / (2 pi E d) { (n_k.u)(n_c.u) + (3-4nu) n_k.n_c - (1-2nu) (n_k+u).n_c / (1 + n_k.u) }
+ *
+ * force       F, compressive > 0, any sign [N]
+ * n_k, n_c    [3] INWARD unit normals: the directions in which the two forces push the grain.  (With outward normals the
+ *             last denominator would vanish for opposite contacts.)
+ * r_kc        [3] vector from contact point k to contact point c [m]; d is its length, u = r_kc / d
+ * E, nu       Young's modulus [Pa] (INFINITY gives 0), Poisson's ratio
+ * prefactor   G, [MC]'s adjustable gamma, >= 0; 1 is the elastic half-space
+ * Returns w [m], > 0 outward; NaN if a normal is not a unit vector, if r_kc = 0, or where 1 + n_k.u is not positive.
+ * On the undeformed sphere (r_kc = R times the difference of the outward normals) it equals nlc_nonlocal_displacement times G, for every nu
+ * ([MC] says for nu = 1/2 only).  Worst error 9 ulp of the sum of the absolute terms, divided by 1 + n_k.u where that is below 1.
+ */
+NLC_API double nlc_half_space_displacement(double force, const double n_k[3], const double n_c[3], const double r_kc[3],
+                                           double E, double nu, double prefactor);
+
+/* ------------------------------------------------------------------------------------------------------------ objects --
+ *
+ * Structs begin with their size, so that a program built against an older header runs with a newer library and the other
+ * way round: set struct_size = sizeof the struct and zero the rest.  A shorter struct is taken as if zeros followed (a field
+ * that is cut in two counts as absent); in a longer one the bytes beyond this version's fields must be zero.
+ */
+
+/* Elastic constants of one material. */
+typedef struct nlc_material {
+    double young;   /* Young's modulus > 0 [Pa]; INFINITY: rigid */
+    double poisson; /* Poisson's ratio, 0 <= nu <= 0.5; not looked at where rigid */
+} nlc_material;
+
+/*
+ * The caller's particles.  Read by nlc_network_init only, and not kept.
+ *
+ * Flat walls are particles of infinite radius at the end of the list: index count + w is wall w.  They have no rows in the
+ * particle arrays.
+ */
+typedef struct nlc_particles {
+    size_t struct_size;             /* sizeof(nlc_particles) */
+    int64_t count;                  /* particles; count + wall_count <= 2^31 - 1 */
+    const double *radius;           /* [count] > 0, finite [m] */
+    ptrdiff_t radius_stride;        /* bytes from one radius to the next; 0: packed */
+    const int32_t *material;        /* [count] index into materials; NULL: all 0 */
+    ptrdiff_t material_stride;      /* bytes from one index to the next; 0: packed */
+    const nlc_material *materials;  /* [material_count]; only those in use are looked at */
+    int64_t material_count;         /* >= 1 if there is a particle or a wall */
+    size_t material_size;           /* sizeof(nlc_material) in the caller's header; 0: that of 0.1, 16 */
+    const int32_t *wall_material;   /* [wall_count] index into materials; NULL: all 0 */
+    int64_t wall_count;             /* flat walls */
+} nlc_particles;
+
+/* How the surface of a grain answers to a force.  0 is the default, for good. */
+enum {
+    NLC_MODEL_GONZALEZ_CUITINO = 0, /* point force on a sphere cut from a half-space ([GC] 5, Case I) */
+    NLC_MODEL_HERTZ = 1,            /* no coupling: the classical law */
+    NLC_MODEL_HALF_SPACE = 2,       /* [MC] 1 times the prefactor, at undeformed contact points */
+    NLC_MODEL_LOVE = 3,             /* not in this version: Hertz pressure on a half-space ([GC] 26-29, Case II) */
+    NLC_MODEL_SPHERE = 4,           /* not in this version: elastic sphere to second order in contact radius / radius */
+    NLC_MODEL_POINT_FORCE = 5       /* not in this version: point force on the elastic sphere */
+};
+
+/* How the coupled equations are solved. */
+enum {
+    NLC_METHOD_AUTOMATIC = 0,  /* the library's choice, which may change between versions */
+    NLC_METHOD_FIXED_POINT = 1 /* [GC] Algorithm 1 with its erratum mended */
+};
+
+/* Which variant of the inner loops is used.  Results differ by rounding only. */
+enum {
+    NLC_SIMD_BEST = 0,   /* the best that this processor has */
+    NLC_SIMD_GENERIC = 1 /* portable C */
+};
+
+/* Options of a network.  0 is the default of every field; a NULL pointer to options means all defaults. */
+typedef struct nlc_options {
+    size_t struct_size;      /* sizeof(nlc_options) */
+    int32_t model;           /* NLC_MODEL_... */
+    int32_t method;          /* NLC_METHOD_... */
+    double tolerance;        /* of the forces, see nlc_solve; 0: 1e-8 */
+    int64_t max_sweeps;      /* 0: 1000 */
+    double prefactor;        /* G of NLC_MODEL_HALF_SPACE, other models do not look at it; 0: 1 */
+    int32_t simd;            /* NLC_SIMD_... */
+    int32_t reserved;        /* 0 */
+    const double *stiffness; /* [contacts] k of P = k x^(3/2) for hosts with a law of their own; NULL: n_H.  Copied. */
+} nlc_options;
+
+/*
+ * What happened.  Never a result: it is written whatever the status, up to the smaller of struct_size and this version's
+ * size; bytes beyond are zeroed.  A NULL pointer to info is allowed everywhere.  Set struct_size before the call.
+ */
+typedef struct nlc_info {
+    size_t struct_size;     /* in: sizeof(nlc_info) */
+    int64_t culprit;        /* on error, what is wrong: see NLC_STATUS_LIST; else -1 */
+    int64_t sweeps;         /* multiplications by the coupling matrix done */
+    double residual;        /* estimated error: largest |P_c - exact_c| / largest force on either of c's two particles */
+    int64_t worst_contact;  /* where that is; -1: nowhere */
+    int64_t active;         /* contacts with a force > 0 */
+} nlc_info;
+
+/* Who touches whom, in the caller's memory.  Opaque. */
+typedef struct nlc_network nlc_network;
+
+/*
+ * nlc_network_size - bytes of memory that nlc_network_init needs.
+ *
+ * particles       only struct_size, count, material_count and wall_count are read
+ * contact_count   contacts, candidates included, >= 0
+ * options         or NULL; only struct_size is read
+ * Returns a size that does not depend on anything else; 0 if an argument is invalid or the size overflows.
+ */
+NLC_API size_t nlc_network_size(const nlc_particles *particles, int64_t contact_count, const nlc_options *options);
+
+/*
+ * nlc_network_init - build the network: check everything, contact stiffnesses, adjacency.  To be done when the neighbour list
+ * changes.
+ *
+ * network         out: the network, at the start of memory.  It is never freed; it must not be moved or copied.
+ * memory          at least nlc_network_size bytes, aligned to 8; owned by the caller, to be kept while the network is used
+ * memory_size     bytes
+ * particles       see nlc_particles
+ * i, j            [contact_count] the two bodies of each contact, in any order: a particle 0 ... count-1 or a wall count ...
+ *                 count+wall_count-1.  i = j is a particle that touches its own periodic image.  A pair may occur any
+ *                 number of times (periodic images, with different normals).  A periodic image has its owner's index.
+ *                 Candidates, pairs that do not touch but may once their surfaces are displaced, belong in the list.
+ * contact_count   >= 0
+ * options         or NULL; copied
+ * info            or NULL
+ *
+ * Returns NLC_OK; NLC_ERROR_NULL, _NULL_FIELD, _STRUCT_SIZE, _RESERVED, _COUNT, _STRIDE, _MEMORY_SIZE, _ALIGNMENT, _MODEL,
+ * _NOT_AVAILABLE, _METHOD, _OPTION, _RADIUS, _MATERIAL, _YOUNG, _POISSON, _INDEX, _WALL_WALL, _RIGID_RIGID, _STIFFNESS, or
+ * _RANGE where a stiffness or a coupling coefficient is beyond the range of double.
+ * On error memory and *network are untouched, so that a network already living there stays valid.
+ */
+NLC_API nlc_status nlc_network_init(nlc_network **network, void *memory, size_t memory_size, const nlc_particles *particles,
+                                    const int32_t *NLC_RESTRICT i, const int32_t *NLC_RESTRICT j, int64_t contact_count,
+                                    const nlc_options *options, nlc_info *info);
+
+/*
+ * nlc_set_options - replace all options of a network, as if it had been built with them.
+ *
+ * network    from nlc_network_init
+ * options    or NULL for the defaults; options->stiffness is [contacts]
+ * info       or NULL
+ * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _RESERVED, _NETWORK, _MODEL, _NOT_AVAILABLE, _METHOD, _OPTION, _STIFFNESS, _RANGE.
+ */
+NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *options, nlc_info *info);
+
+/*
+ * nlc_solve - the coupled forces of all contacts.                                               [GC] 9, 10, Algorithm 1
+ *
+ *     P_c = k_c (gamma_c + g_c)_+^(3/2),   g_c = sum of the displacements that the other forces on i and on j cause at c
+ *
+ * network    from nlc_network_init
+ * force      [contacts] out: P >= 0 [N]
+ * nonlocal   [contacts] in-out: g [m].  In: where to start, the values of the last step or zeros; any finite values will
+ *            do.  Out: g of the forces returned, P_c = k_c (gamma_c + g_c)_+^(3/2).
+ * overlap    [contacts] gamma [m], negative for candidates
+ * normal     [contacts][3] unit vectors from i to j (into the wall), | |n|^2 - 1 | <= 1e-6, used as given
+ * info       or NULL: sweeps, residual, worst_contact, active
+ *
+ * Tolerance: |P_c - exact_c| <= options.tolerance times the largest force on either of c's two particles.  info.residual is
+ * the estimate of that error, from the observed rate of convergence, by which the iteration is stopped.
+ * Erratum mended: Algorithm 1 as printed adds each sweep's displacements to those of the sweep before; here each sweep
+ * starts from zero, as [GC] 9 has it.
+ * A solution exists up to a load at which the largest eigenvalue lambda of the tangent coupling reaches 1 (a fold);
+ * errors are amplified by 1/(1 - lambda) on the way there.  Beyond it, and where the fixed point oscillates, the best
+ * forces met are returned with NLC_WARNING_NOT_CONVERGED: finite, not a solution.
+ * Exchanging i and j of a contact with its normal reversed changes no bit of the results; reordering the contacts changes
+ * the last bits.
+ *
+ * Returns NLC_OK; NLC_WARNING_NOT_CONVERGED, NLC_WARNING_ROUNDING; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _OVERLAP,
+ * _NORMAL, _NONLOCAL, _COINCIDENT, _RANGE.
+ */
+NLC_API nlc_status nlc_solve(nlc_network *network, double *NLC_RESTRICT force, double *NLC_RESTRICT nonlocal,
+                             const double *NLC_RESTRICT overlap, const double *NLC_RESTRICT normal, nlc_info *info);
+
+/*
+ * nlc_sweep - displacements of the surfaces under given forces: one multiplication by the coupling matrix.      [GC] 5, 9
+ *
+ * For codes that want one lagged sweep a step, their own solver, or communication between sweeps.
+ *
+ * network        from nlc_network_init
+ * displacement   [contacts][2] out: on i's side, on j's side [m], > 0 outward; their sum is g.  0 on walls and rigid bodies.
+ * force          [contacts] any finite values [N], negative for adhesion
+ * overlap        [contacts] or NULL; no model of this version looks at it
+ * normal         [contacts][3] as for nlc_solve
+ * info           or NULL
+ * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _OVERLAP, _NORMAL, _FORCE, _COINCIDENT, _RANGE.
+ */
+NLC_API nlc_status nlc_sweep(nlc_network *network, double *NLC_RESTRICT displacement, const double *NLC_RESTRICT force,
+                             const double *NLC_RESTRICT overlap, const double *NLC_RESTRICT normal, nlc_info *info);
+
+/*
+ * nlc_assemble - add the contact forces to the forces on the particles: F[i] -= P n, F[j] += P n.
+ *
+ * network    from nlc_network_init
+ * F          [particles][3] in-out [N]
+ * F_stride   bytes from one particle's force to the next; 0: packed, 24
+ * F_wall     [walls][3] in-out [N], or NULL
+ * force      [contacts] any finite values [N]
+ * normal     [contacts][3] as for nlc_solve
+ * info       or NULL
+ * A particle's contact with itself (i = j) adds nothing.  Exchanging i and j of a contact with its normal reversed changes
+ * no bit.  NLC_ERROR_RANGE: the sum of all magnitudes might exceed the range of double.
+ * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _STRIDE, _FORCE, _NORMAL, _TOTAL_FORCE, _RANGE.
+ */
+NLC_API nlc_status nlc_assemble(const nlc_network *network, double *NLC_RESTRICT F, ptrdiff_t F_stride,
+                                double *NLC_RESTRICT F_wall, const double *NLC_RESTRICT force,
+                                const double *NLC_RESTRICT normal, nlc_info *info);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* NLCONTACT_H */

@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * fixed_point.c - [GC] Algorithm 1: forces from the last displacements, displacements from these forces, and again.
+ *
+ * As printed the algorithm adds a sweep's displacements to those of the sweep before; its Eq. 9 does not, nor does this.
+ *
+ * The change of the forces from one sweep to the next is r, its ratio to the change before is the rate; what is still to
+ * come is r (rate + rate^2 + ...) = r rate / (1 - rate).
+ */
+#include <float.h>
+
+#include "network.h"
+
+#define FIRST_RATE 0.9            /* before a rate has been seen */
+#define SLOWEST_RATE 0.99999      /* a rate above is no convergence */
+#define RUNAWAY 100               /* no solution has overlaps this much larger than the largest one given */
+#define ROUNDING (64 * DBL_EPSILON) /* changes below are noise and say nothing of the rate */
+
+typedef struct state {
+    double change, last_change; /* r of this sweep and the one before */
+    double rate, last_rate;
+    double smallest; /* smallest r so far; network->best is where it was met */
+    double highest;  /* largest overlap plus displacement */
+    int64_t worst;
+} state;
+
+/* Overlap plus displacement, held where no solution is: the iteration ends there, with finite forces. */
+static double bounded(double overlap, double displacement, double cap)
+{
+    double x = overlap + displacement;
+    return x < cap ? x : cap;
+}
+
+/* Forces from network->current. */
+static void start(nlc_network *n, const double *overlap)
+{
+    for (int64_t c = 0; c < n->contact_count; c++) n->force[c] = nlc_law(n->stiffness[c], overlap[c] + n->current[c]);
+}
+
+/* Forces from the displacements just computed; the change per contact, relative to the largest force on its two bodies. */
+static void update_forces(nlc_network *n, const double *overlap, double cap, state *s)
+{
+    s->change = 0;
+    s->highest = 0;
+    s->worst = -1;
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        double x = bounded(overlap[c], n->side[2 * c] + n->side[2 * c + 1], cap);
+        double p = nlc_law(n->stiffness[c], x), change = fabs(p - n->force[c]);
+        double a = n->largest[n->i[c]], b = n->largest[n->j[c]], scale = a > b ? a : b;
+        scale = p > scale ? p : scale;
+        n->force[c] = p;
+        s->highest = x > s->highest ? x : s->highest;
+        if (change > s->change * scale && scale > 0) {
+            s->change = change / scale;
+            s->worst = c;
+        }
+    }
+}
+
+static void keep_displacements(nlc_network *n, const double *overlap, double cap)
+{
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        double g = n->side[2 * c] + n->side[2 * c + 1];
+        n->current[c] = overlap[c] + g < cap ? g : cap - overlap[c];
+    }
+}
+
+static void swap_best(nlc_network *n)
+{
+    double *t = n->best;
+    n->best = n->current;
+    n->current = t;
+}
+
+/* Estimated error of the forces after this sweep. */
+static double remaining(state *s, int64_t sweeps)
+{
+    if (sweeps >= 2 && s->change > ROUNDING && s->last_change > 0) {
+        s->last_rate = s->rate;
+        s->rate = s->change / s->last_change;
+    }
+    double rate = s->rate > s->last_rate ? s->rate : s->last_rate;
+    if (s->change <= 0) return 0;
+    return rate < SLOWEST_RATE ? s->change * rate / (1 - rate) : INFINITY;
+}
+
+static void finish(nlc_outcome *out, nlc_status status, double residual, int64_t worst)
+{
+    out->status = status;
+    out->residual = residual;
+    out->worst_contact = worst;
+}
+
+void nlc_fixed_point(nlc_network *n, const double *overlap, const double *normal, nlc_outcome *out)
+{
+    const double runaway = RUNAWAY * nlc_largest_magnitude(overlap, n->contact_count);
+    state s = {.rate = FIRST_RATE, .last_rate = FIRST_RATE, .smallest = INFINITY};
+    start(n, overlap);
+    for (int64_t sweeps = 1; sweeps <= n->settings.max_sweeps; sweeps++) {
+        out->sweeps++;
+        nlc_status status = nlc_displace(n, n->force, normal, &out->culprit);
+        if (status != NLC_OK) return finish(out, status, 0, -1);
+        s.last_change = s.change;
+        update_forces(n, overlap, runaway, &s);
+        double error = remaining(&s, sweeps);
+        if (s.change < s.smallest) {
+            s.smallest = s.change;
+        } else if (s.last_change <= s.smallest) {
+            swap_best(n); /* the displacements that this sweep started from were the best */
+        }
+        keep_displacements(n, overlap, runaway);
+        if (error <= n->settings.tolerance) return finish(out, NLC_OK, error, s.worst);
+        if (s.change <= ROUNDING && s.change >= s.smallest) return finish(out, NLC_WARNING_ROUNDING, error, s.worst);
+        if (s.highest >= runaway && runaway > 0) break;
+    }
+    if (s.change > s.smallest) swap_best(n);
+    finish(out, NLC_WARNING_NOT_CONVERGED, s.smallest, s.worst);
+}

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * model.h - what the driver sees of a force model: a row of a table.
+ *
+ * A model's displacement on a particle of radius R and modulus E is U times a function of the directions,
+ * U = (1+nu) / (4 pi R E), linear in the forces.
+ */
+#ifndef NLC_MODEL_H
+#define NLC_MODEL_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Contacts of one particle, or a part of them where there are more than fit. */
+#define NLC_BLOCK 64
+typedef struct nlc_block {
+    int count;
+    double x[NLC_BLOCK], y[NLC_BLOCK], z[NLC_BLOCK]; /* outward unit normals */
+    double force[NLC_BLOCK];
+    double displacement[NLC_BLOCK]; /* added to, > 0 outward */
+} nlc_block;
+
+/* Constants of a kernel, prepared once per material and multiplied by a particle's U before use. */
+#define NLC_KERNEL_SIZE 3
+typedef struct nlc_kernel {
+    double c[NLC_KERNEL_SIZE];
+} nlc_kernel;
+
+typedef struct nlc_model {
+    const char *name;      /* as on a command line */
+    const char *reference; /* authors, year, equations */
+    const char *doi;
+    const char *validity;
+    bool available; /* in this version */
+    /* NULL in a model without coupling: */
+    void (*prepare)(nlc_kernel *kernel, double poisson, double prefactor);
+    /* Displacements in a block by its own forces, or in two blocks by each other's.  False: two directions are the same. */
+    bool (*within)(nlc_block *a, const nlc_kernel *kernel);
+    bool (*between)(nlc_block *a, nlc_block *b, const nlc_kernel *kernel);
+} nlc_model;
+
+extern const nlc_model nlc_models[];
+extern const int32_t nlc_models_count;
+
+/* Case I of [GC], which is also the half-space kernel of [MC] at undeformed contact points: boussinesq_block.c */
+void nlc_case_one_prepare(nlc_kernel *kernel, double poisson, double prefactor);
+void nlc_half_space_prepare(nlc_kernel *kernel, double poisson, double prefactor);
+bool nlc_case_one_within(nlc_block *a, const nlc_kernel *kernel);
+bool nlc_case_one_between(nlc_block *a, nlc_block *b, const nlc_kernel *kernel);
+
+#endif

@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* network.c - building the network in the caller's memory. */
+#include "network.h"
+
+#include "hertz.h"
+#include "particles.h"
+#include "structs.h"
+
+/* Takes count elements from the memory of which *used bytes are gone; *used becomes SIZE_MAX if that overflows. */
+static void *take(char *memory, size_t *used, int64_t count, size_t size)
+{
+    size_t at = *used;
+    if (at == SIZE_MAX || (uint64_t)count > (SIZE_MAX - 16 - at) / size) {
+        *used = SIZE_MAX;
+        return 0;
+    }
+    *used = at + (((size_t)count * size + 7) & ~(size_t)7);
+    return memory ? memory + at : 0;
+}
+
+/* The arrays of a network at memory, or just their total size where memory is NULL; 0 if that overflows. */
+static size_t lay_out(nlc_network *n, char *memory)
+{
+    size_t used = (sizeof *n + 7) & ~(size_t)7;
+    if (n->contact_count > INT64_MAX / 2) return 0;
+    n->start = take(memory, &used, n->particle_count + 1, sizeof *n->start);
+    n->radius = take(memory, &used, n->particle_count, sizeof *n->radius);
+    n->scale = take(memory, &used, n->particle_count, sizeof *n->scale);
+    n->largest = take(memory, &used, n->body_count, sizeof *n->largest);
+    n->material = take(memory, &used, n->body_count, sizeof *n->material);
+    n->materials = take(memory, &used, n->material_count, sizeof *n->materials);
+    n->kernel = take(memory, &used, n->material_count, sizeof *n->kernel);
+    n->i = take(memory, &used, n->contact_count, sizeof *n->i);
+    n->j = take(memory, &used, n->contact_count, sizeof *n->j);
+    n->stiffness = take(memory, &used, n->contact_count, sizeof *n->stiffness);
+    n->force = take(memory, &used, n->contact_count, sizeof *n->force);
+    n->current = take(memory, &used, n->contact_count, sizeof *n->current);
+    n->best = take(memory, &used, n->contact_count, sizeof *n->best);
+    n->entry = take(memory, &used, 2 * n->contact_count, sizeof *n->entry);
+    n->side = take(memory, &used, 2 * n->contact_count, sizeof *n->side);
+    return used == SIZE_MAX ? 0 : used;
+}
+
+/* Counts and the size they lead to.  NLC_ERROR_COUNT where that overflows. */
+static nlc_status measure(nlc_network *n, const nlc_particles *p, int64_t contact_count, size_t *size)
+{
+    memset(n, 0, sizeof *n);
+    n->particle_count = p->count;
+    n->body_count = p->count + p->wall_count;
+    n->contact_count = contact_count;
+    n->material_count = p->material_count;
+    if (contact_count < 0) return NLC_ERROR_COUNT;
+    *size = lay_out(n, 0);
+    return *size == 0 ? NLC_ERROR_COUNT : NLC_OK;
+}
+
+size_t nlc_network_size(const nlc_particles *particles, int64_t contact_count, const nlc_options *options)
+{
+    nlc_particles p;
+    nlc_options o;
+    nlc_network n;
+    size_t size;
+    if (!particles || nlc_read_counts(&p, particles) != NLC_OK || nlc_read_options(&o, options) != NLC_OK) return 0;
+    return measure(&n, &p, contact_count, &size) == NLC_OK ? size : 0;
+}
+
+/* U = (1+nu) / (4 pi R E) */
+static double coupling_scale(double R, nlc_material m)
+{
+    if (!nlc_is_finite(m.young)) return 0;
+    nlc_scaled r = nlc_split(R), e = nlc_split(m.young);
+    return nlc_join((1 + m.poisson) / (4 * 3.14159265358979323846 * r.m * e.m), -r.e - e.e);
+}
+
+/* Whether every n_H can be held; found out before there is a network. */
+static bool stiffnesses_in_range(const nlc_particles *p, const int32_t *i, const int32_t *j, int64_t count, int64_t *culprit)
+{
+    for (int64_t c = 0; c < count; c++) {
+        nlc_material a = nlc_material_row(p, nlc_material_of(p, i[c])), b = nlc_material_row(p, nlc_material_of(p, j[c]));
+        *culprit = c;
+        if (!nlc_is_positive(nlc_hertz_stiffness(a.young, a.poisson, i[c] < p->count ? nlc_radius_of(p, i[c]) : INFINITY,
+                                                 b.young, b.poisson, j[c] < p->count ? nlc_radius_of(p, j[c]) : INFINITY)))
+            return false;
+    }
+    *culprit = -1;
+    return true;
+}
+
+/* Largest U; subnormal ones have lost their digits. */
+static bool scales_in_range(const nlc_particles *p, int *exponent)
+{
+    double largest = 0;
+    for (int64_t k = 0; k < p->count; k++) {
+        nlc_material m = nlc_material_row(p, nlc_material_of(p, k));
+        double u = coupling_scale(nlc_radius_of(p, k), m);
+        if (nlc_is_finite(m.young) && !(nlc_is_finite(u) && u >= nlc_pow2(-1022))) return false;
+        largest = u > largest ? u : largest;
+    }
+    *exponent = nlc_exponent_above(largest);
+    return true;
+}
+
+static void build_adjacency(nlc_network *n)
+{
+    memset(n->start, 0, (size_t)(n->particle_count + 1) * sizeof *n->start);
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        if (n->i[c] < n->particle_count) n->start[n->i[c]]++;
+        if (n->j[c] < n->particle_count) n->start[n->j[c]]++;
+        if (n->i[c] == n->j[c]) n->self_contacts = true;
+    }
+    int64_t sum = 0;
+    for (int64_t k = 0; k <= n->particle_count; k++) n->start[k] = sum += n->start[k];
+    /* start[k] is now the end of k's list: filled from behind it becomes its beginning */
+    for (int64_t c = n->contact_count - 1; c >= 0; c--) {
+        if (n->j[c] < n->particle_count) n->entry[--n->start[n->j[c]]] = 2 * c + 1;
+        if (n->i[c] < n->particle_count) n->entry[--n->start[n->i[c]]] = 2 * c;
+    }
+}
+
+static void build(nlc_network *n, const nlc_particles *p, const int32_t *i, const int32_t *j)
+{
+    for (int64_t k = 0; k < n->body_count; k++) n->material[k] = nlc_material_of(p, k);
+    for (int64_t m = 0; m < n->material_count; m++) n->materials[m] = nlc_material_row(p, m);
+    for (int64_t k = 0; k < n->particle_count; k++) {
+        n->radius[k] = nlc_radius_of(p, k);
+        n->scale[k] = coupling_scale(n->radius[k], n->materials[n->material[k]]);
+    }
+    if (n->contact_count > 0) {
+        memcpy(n->i, i, (size_t)n->contact_count * sizeof *i);
+        memcpy(n->j, j, (size_t)n->contact_count * sizeof *j);
+        memset(n->side, 0, 2 * (size_t)n->contact_count * sizeof *n->side);
+    }
+    if (n->body_count > 0) memset(n->largest, 0, (size_t)n->body_count * sizeof *n->largest);
+    build_adjacency(n);
+}
+
+/* All that can be wrong with the arguments of nlc_network_init; nothing is written but *n, *settings and *culprit. */
+static nlc_status check_all(nlc_network *n, nlc_settings *settings, const nlc_particles *p, const int32_t *i, const int32_t *j,
+                            const nlc_options *o, int64_t *culprit)
+{
+    nlc_status status = nlc_read_settings(settings, o, culprit);
+    if (status != NLC_OK) return status;
+    if ((status = nlc_check_particles(p, culprit)) != NLC_OK) return status;
+    if ((status = nlc_check_contacts(p, i, j, n->contact_count, culprit)) != NLC_OK) return status;
+    if (o->stiffness) {
+        *culprit = nlc_first_not_positive(o->stiffness, n->contact_count);
+        if (*culprit >= 0) return NLC_ERROR_STIFFNESS;
+    } else if (!stiffnesses_in_range(p, i, j, n->contact_count, culprit)) {
+        return NLC_ERROR_RANGE;
+    }
+    *culprit = -1;
+    if (!scales_in_range(p, &n->scale_exponent)) return NLC_ERROR_RANGE;
+    return nlc_prefactor_in_range(n, settings) ? NLC_OK : NLC_ERROR_RANGE;
+}
+
+nlc_status nlc_network_init(nlc_network **network, void *memory, size_t memory_size, const nlc_particles *particles,
+                            const int32_t *NLC_RESTRICT i, const int32_t *NLC_RESTRICT j, int64_t contact_count,
+                            const nlc_options *options, nlc_info *info)
+{
+    nlc_particles p;
+    nlc_options o;
+    nlc_network n;
+    nlc_settings settings;
+    nlc_status status;
+    size_t size;
+    int64_t culprit;
+    if (!nlc_info_is_valid(info)) return NLC_ERROR_STRUCT_SIZE;
+    if (!network) return nlc_error(info, NLC_ERROR_NULL, 0);
+    if (!memory) return nlc_error(info, NLC_ERROR_NULL, 1);
+    if (!particles) return nlc_error(info, NLC_ERROR_NULL, 3);
+    if (contact_count > 0 && (!i || !j)) return nlc_error(info, NLC_ERROR_NULL, i ? 5 : 4);
+    if ((status = nlc_read_counts(&p, particles)) != NLC_OK) return nlc_error(info, status, 3);
+    if ((status = nlc_read_options(&o, options)) != NLC_OK) return nlc_error(info, status, 7);
+    if ((status = measure(&n, &p, contact_count, &size)) != NLC_OK) return nlc_error(info, status, 6);
+    if ((uintptr_t)memory % 8 != 0) return nlc_error(info, NLC_ERROR_ALIGNMENT, (int64_t)((uintptr_t)memory % 8));
+    if (memory_size < size) return nlc_error(info, NLC_ERROR_MEMORY_SIZE, (int64_t)size);
+    if ((status = check_all(&n, &settings, &p, i, j, &o, &culprit)) != NLC_OK) return nlc_error(info, status, culprit);
+
+    lay_out(&n, memory);
+    build(&n, &p, i, j);
+    nlc_apply_settings(&n, &settings, o.stiffness);
+    n.magic = NLC_NETWORK_MAGIC;
+    memcpy(memory, &n, sizeof n);
+    *network = memory;
+    return nlc_error(info, NLC_OK, -1);
+}
+
+bool nlc_network_is_valid(const nlc_network *network)
+{
+    return (uintptr_t)network % 8 == 0 && network->magic == NLC_NETWORK_MAGIC;
+}

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * network.h - the network in the caller's memory.
+ *
+ * Bodies are the particles 0 ... particle_count-1 and then the walls.  Each contact has two sides, side 0 on i and side 1 on
+ * j; side number e = 2 contact + side.  The adjacency is compressed by particle: entry[start[k]] ... entry[start[k+1]-1] are
+ * the sides that lie on particle k, ascending.  Sides on walls are in no particle's list.
+ */
+#ifndef NLC_NETWORK_H
+#define NLC_NETWORK_H
+
+#include "model.h"
+#include "nlcontact.h"
+#include "number.h"
+
+#define NLC_NETWORK_MAGIC UINT64_C(0x4e4c434f4e544331) /* NLCONTC1 */
+
+/* Options, checked and with the defaults filled in. */
+typedef struct nlc_settings {
+    const nlc_model *model;
+    int32_t method, simd;
+    double tolerance, prefactor;
+    int64_t max_sweeps;
+} nlc_settings;
+
+struct nlc_network {
+    uint64_t magic;
+    int64_t particle_count, body_count, contact_count, material_count;
+    nlc_settings settings;
+    bool self_contacts;     /* some contact has i = j */
+    int scale_exponent;     /* no U reaches 2^ this */
+    int coupling_exponent;  /* nor does any particle's kernel constant 2^ this */
+    int stiffness_exponent; /* nor any stiffness */
+    /* Set by nlc_network_init */
+    int32_t *i, *j;          /* [contacts] */
+    int64_t *start;          /* [particles+1] */
+    int64_t *entry;          /* [2 contacts] */
+    double *radius;          /* [particles] */
+    int32_t *material;       /* [bodies] */
+    nlc_material *materials; /* [materials] */
+    double *scale;           /* [particles] U = (1+nu)/(4 pi R E), 0 if rigid */
+    /* Set by nlc_set_options too */
+    double *stiffness;  /* [contacts] */
+    nlc_kernel *kernel; /* [materials] */
+    /* Work space; sides on walls stay 0 in side, walls in largest */
+    double *side;    /* [2 contacts] displacement of each side */
+    double *force;   /* [contacts] */
+    double *current; /* [contacts] nonlocal displacement */
+    double *best;    /* [contacts] the same, the best met so far */
+    double *largest; /* [bodies] */
+};
+
+/* Whether this is a network made by nlc_network_init. */
+bool nlc_network_is_valid(const nlc_network *network);
+
+/* Outward direction of a side: the contact normal, reversed on j's side. */
+static inline double nlc_outward(int64_t entry)
+{
+    return entry & 1 ? -1.0 : 1.0;
+}
+
+/* settings.c */
+nlc_status nlc_read_settings(nlc_settings *settings, const nlc_options *options, int64_t *culprit);
+bool nlc_prefactor_in_range(const nlc_network *network, const nlc_settings *settings);
+void nlc_apply_settings(nlc_network *network, const nlc_settings *settings, const double *stiffness);
+
+/* check.c: [contacts] arrays; they return the index of the first bad element, or -1. */
+int64_t nlc_first_not_finite(const double *values, int64_t count);
+int64_t nlc_first_not_positive(const double *values, int64_t count);
+int64_t nlc_first_not_unit(const double *normals, int64_t count);
+double nlc_largest_magnitude(const double *values, int64_t count);
+
+/*
+ * sweep.c: displacement of every side under the given forces into network->side, and the largest |force| on every body into
+ * network->largest.  NLC_ERROR_COINCIDENT (culprit: a contact) or NLC_ERROR_RANGE; then both are undefined.
+ */
+nlc_status nlc_displace(nlc_network *network, const double *force, const double *normal, int64_t *culprit);
+
+/* What an iteration leaves behind: the nonlocal displacement is in network->current. */
+typedef struct nlc_outcome {
+    nlc_status status;
+    int64_t culprit, sweeps, worst_contact;
+    double residual;
+} nlc_outcome;
+
+/* fixed_point.c: [GC] Algorithm 1 from network->current. */
+void nlc_fixed_point(nlc_network *network, const double *overlap, const double *normal, nlc_outcome *outcome);
+
+/* The force law.  No intermediate result exceeds the larger of stiffness and force. */
+static inline double nlc_law(double stiffness, double overlap)
+{
+    double x = overlap > 0 ? overlap : 0;
+    return stiffness * sqrt(x) * x;
+}
+
+#endif

@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* settings.c - a network's options: checks, defaults, and what follows from them. */
+#include "network.h"
+
+#include "hertz.h"
+#include "structs.h"
+
+#define DEFAULT_TOLERANCE 1e-8
+#define DEFAULT_MAX_SWEEPS 1000
+
+static bool is_finite_nonnegative(double x)
+{
+    return nlc_is_finite(x) && x >= 0;
+}
+
+nlc_status nlc_read_settings(nlc_settings *settings, const nlc_options *o, int64_t *culprit)
+{
+    *culprit = o->model;
+    if (o->model < 0 || o->model >= nlc_models_count) return NLC_ERROR_MODEL;
+    if (!nlc_models[o->model].available) return NLC_ERROR_NOT_AVAILABLE;
+    *culprit = o->method;
+    if (o->method != NLC_METHOD_AUTOMATIC && o->method != NLC_METHOD_FIXED_POINT) return NLC_ERROR_METHOD;
+    *culprit = offsetof(nlc_options, tolerance);
+    if (!is_finite_nonnegative(o->tolerance)) return NLC_ERROR_OPTION;
+    *culprit = offsetof(nlc_options, max_sweeps);
+    if (o->max_sweeps < 0) return NLC_ERROR_OPTION;
+    *culprit = offsetof(nlc_options, prefactor);
+    if (!is_finite_nonnegative(o->prefactor)) return NLC_ERROR_OPTION;
+    *culprit = offsetof(nlc_options, simd);
+    if (o->simd != NLC_SIMD_BEST && o->simd != NLC_SIMD_GENERIC) return NLC_ERROR_OPTION;
+    *culprit = offsetof(nlc_options, reserved);
+    if (o->reserved != 0) return NLC_ERROR_OPTION;
+    *culprit = -1;
+    settings->model = &nlc_models[o->model];
+    settings->method = o->method;
+    settings->simd = o->simd;
+    settings->tolerance = o->tolerance > 0 ? o->tolerance : DEFAULT_TOLERANCE;
+    settings->max_sweeps = o->max_sweeps > 0 ? o->max_sweeps : DEFAULT_MAX_SWEEPS;
+    settings->prefactor = o->prefactor > 0 ? o->prefactor : 1;
+    return NLC_OK;
+}
+
+/* Kernel constants are at most 8 prefactors times U: far enough from the end of double's range for a sweep's intermediates. */
+bool nlc_prefactor_in_range(const nlc_network *n, const nlc_settings *settings)
+{
+    return n->scale_exponent + nlc_exponent_above(settings->prefactor) + 3 < 1000 && nlc_exponent_above(settings->prefactor) < 1000;
+}
+
+static double hertz_stiffness_of(const nlc_network *n, int64_t c)
+{
+    const int32_t i = n->i[c], j = n->j[c];
+    const nlc_material a = n->materials[n->material[i]], b = n->materials[n->material[j]];
+    return nlc_hertz_stiffness(a.young, a.poisson, i < n->particle_count ? n->radius[i] : INFINITY, //
+                               b.young, b.poisson, j < n->particle_count ? n->radius[j] : INFINITY);
+}
+
+void nlc_apply_settings(nlc_network *n, const nlc_settings *settings, const double *stiffness)
+{
+    n->settings = *settings;
+    n->coupling_exponent = n->scale_exponent + nlc_exponent_above(settings->prefactor) + 3;
+    for (int64_t m = 0; m < n->material_count; m++)
+        if (settings->model->prepare && nlc_is_material(n->materials[m].young, n->materials[m].poisson))
+            settings->model->prepare(&n->kernel[m], n->materials[m].poisson, settings->prefactor);
+    for (int64_t c = 0; c < n->contact_count; c++) n->stiffness[c] = stiffness ? stiffness[c] : hertz_stiffness_of(n, c);
+    n->stiffness_exponent = nlc_exponent_above(nlc_largest_magnitude(n->stiffness, n->contact_count));
+}
+
+static nlc_status check_stiffnesses(const nlc_network *n, const double *stiffness, int64_t *culprit)
+{
+    if (stiffness) {
+        *culprit = nlc_first_not_positive(stiffness, n->contact_count);
+        return *culprit >= 0 ? NLC_ERROR_STIFFNESS : NLC_OK;
+    }
+    for (*culprit = 0; *culprit < n->contact_count; ++*culprit)
+        if (!nlc_is_positive(hertz_stiffness_of(n, *culprit))) return NLC_ERROR_RANGE;
+    return NLC_OK;
+}
+
+nlc_status nlc_set_options(nlc_network *network, const nlc_options *options, nlc_info *info)
+{
+    nlc_options o;
+    nlc_settings settings;
+    int64_t culprit;
+    if (!nlc_info_is_valid(info)) return NLC_ERROR_STRUCT_SIZE;
+    if (!network) return nlc_error(info, NLC_ERROR_NULL, 0);
+    if (!nlc_network_is_valid(network)) return nlc_error(info, NLC_ERROR_NETWORK, -1);
+    nlc_status status = nlc_read_options(&o, options);
+    if (status != NLC_OK) return nlc_error(info, status, 1);
+    if ((status = nlc_read_settings(&settings, &o, &culprit)) != NLC_OK) return nlc_error(info, status, culprit);
+    if (!nlc_prefactor_in_range(network, &settings)) return nlc_error(info, NLC_ERROR_RANGE, -1);
+    if ((status = check_stiffnesses(network, o.stiffness, &culprit)) != NLC_OK) return nlc_error(info, status, culprit);
+    nlc_apply_settings(network, &settings, o.stiffness);
+    return nlc_error(info, NLC_OK, -1);
+}

@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* solve.c - the driver: checks, where to start, which method, what to hand over. */
+#include <string.h>
+
+#include "network.h"
+#include "structs.h"
+#include "vector.h"
+
+/* Largest overlap + displacement that an iteration may try, as a power of two of the largest overlap given. */
+#define HEADROOM 10
+
+static nlc_status check(const nlc_network *n, const double *overlap, const double *normal, const double *nonlocal, int64_t *culprit)
+{
+    if ((*culprit = nlc_first_not_finite(overlap, n->contact_count)) >= 0) return NLC_ERROR_OVERLAP;
+    if ((*culprit = nlc_first_not_unit(normal, n->contact_count)) >= 0) return NLC_ERROR_NORMAL;
+    if ((*culprit = nlc_first_not_finite(nonlocal, n->contact_count)) >= 0) return NLC_ERROR_NONLOCAL;
+    int e = nlc_exponent_above(nlc_largest_magnitude(overlap, n->contact_count)) + HEADROOM;
+    if (e > 1000 || n->stiffness_exponent + e + (e > 0 ? e / 2 + 1 : 0) > 1000) return NLC_ERROR_RANGE;
+    return NLC_OK;
+}
+
+/* Largest overlap on each particle, 0 at least. */
+static void largest_overlaps(nlc_network *n, const double *overlap)
+{
+    for (int64_t k = 0; k < n->particle_count; k++) {
+        double largest = 0;
+        for (int64_t p = n->start[k]; p < n->start[k + 1]; p++) {
+            double x = overlap[n->entry[p] >> 1];
+            largest = x > largest ? x : largest;
+        }
+        n->largest[k] = largest;
+    }
+}
+
+/*
+ * The caller's displacements as a start, capped where overlap + displacement would exceed 3 times the largest overlap on the
+ * two particles: that is where the stable branch ends for equal forces, and beyond it lies the unstable one.
+ */
+static void start_from(nlc_network *n, const double *overlap, const double *nonlocal)
+{
+    largest_overlaps(n, overlap);
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        double a = n->largest[n->i[c]], b = n->largest[n->j[c]];
+        double cap = 3 * (a > b ? a : b) - overlap[c];
+        cap = cap > 0 ? cap : 0;
+        double g = nonlocal ? nonlocal[c] : 0;
+        n->current[c] = g > cap ? cap : g < -cap ? -cap : g;
+    }
+}
+
+static bool all_zero(const double *values, int64_t count)
+{
+    for (int64_t c = 0; c < count; c++)
+        if (nlc_abs_bits(values[c]) != 0) return false;
+    return true;
+}
+
+static void iterate(nlc_network *n, const double *overlap, const double *normal, const double *nonlocal, nlc_outcome *out)
+{
+    start_from(n, overlap, nonlocal);
+    nlc_fixed_point(n, overlap, normal, out);
+    if (out->status == NLC_WARNING_NOT_CONVERGED && !all_zero(nonlocal, n->contact_count)) {
+        start_from(n, overlap, 0); /* it may have been a bad start */
+        nlc_fixed_point(n, overlap, normal, out);
+    }
+}
+
+nlc_status nlc_solve(nlc_network *network, double *NLC_RESTRICT force, double *NLC_RESTRICT nonlocal,
+                     const double *NLC_RESTRICT overlap, const double *NLC_RESTRICT normal, nlc_info *info)
+{
+    if (!nlc_info_is_valid(info)) return NLC_ERROR_STRUCT_SIZE;
+    if (!network) return nlc_error(info, NLC_ERROR_NULL, 0);
+    if (!nlc_network_is_valid(network)) return nlc_error(info, NLC_ERROR_NETWORK, -1);
+    const int64_t count = network->contact_count;
+    if (count == 0) return nlc_error(info, NLC_OK, -1);
+    if (!force) return nlc_error(info, NLC_ERROR_NULL, 1);
+    if (!nonlocal) return nlc_error(info, NLC_ERROR_NULL, 2);
+    if (!overlap) return nlc_error(info, NLC_ERROR_NULL, 3);
+    if (!normal) return nlc_error(info, NLC_ERROR_NULL, 4);
+    nlc_outcome out = {.status = NLC_OK, .culprit = -1, .worst_contact = -1};
+    out.status = check(network, overlap, normal, nonlocal, &out.culprit);
+    if (out.status != NLC_OK) return nlc_error(info, out.status, out.culprit);
+
+    if (network->settings.model->within)
+        iterate(network, overlap, normal, nonlocal, &out);
+    else
+        memset(network->current, 0, (size_t)count * sizeof *network->current);
+    if (out.status < 0) return nlc_error(info, out.status, out.culprit);
+
+    nlc_info record = nlc_new_info();
+    record.sweeps = out.sweeps;
+    record.residual = out.residual;
+    record.worst_contact = out.worst_contact;
+    for (int64_t c = 0; c < count; c++) {
+        nonlocal[c] = network->current[c];
+        force[c] = nlc_law(network->stiffness[c], overlap[c] + nonlocal[c]);
+        record.active += force[c] > 0;
+    }
+    return nlc_report(info, &record, out.status);
+}

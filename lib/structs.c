@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* structs.c - the rule by which public structs of other versions are read and written. */
+#include "structs.h"
+
+#include <string.h>
+
+#define END(type, field) (offsetof(type, field) + sizeof(((type *)0)->field))
+
+/* Where the fields end.  A new field is appended, never inserted. */
+static const size_t particles_ends[] = {
+    END(nlc_particles, struct_size),    END(nlc_particles, count),         END(nlc_particles, radius),
+    END(nlc_particles, radius_stride),  END(nlc_particles, material),      END(nlc_particles, material_stride),
+    END(nlc_particles, materials),      END(nlc_particles, material_count), END(nlc_particles, material_size),
+    END(nlc_particles, wall_material),  END(nlc_particles, wall_count),
+};
+static const size_t options_ends[] = {
+    END(nlc_options, struct_size), END(nlc_options, model),      END(nlc_options, method),
+    END(nlc_options, tolerance),   END(nlc_options, max_sweeps), END(nlc_options, prefactor),
+    END(nlc_options, simd),        END(nlc_options, reserved),   END(nlc_options, stiffness),
+};
+
+static nlc_status read_struct(void *to, size_t own, const void *from, const size_t *ends, size_t count)
+{
+    size_t size, whole = 0;
+    memcpy(&size, from, sizeof size);
+    if (size < sizeof size || size > NLC_STRUCT_MAX) return NLC_ERROR_STRUCT_SIZE;
+    for (size_t b = own; b < size; b++)
+        if (((const unsigned char *)from)[b] != 0) return NLC_ERROR_RESERVED;
+    for (size_t f = 0; f < count && ends[f] <= size; f++) whole = ends[f];
+    memset(to, 0, own);
+    memcpy(to, from, whole);
+    return NLC_OK;
+}
+
+nlc_status nlc_read_particles(nlc_particles *to, const nlc_particles *from)
+{
+    return read_struct(to, sizeof *to, from, particles_ends, sizeof particles_ends / sizeof *particles_ends);
+}
+
+nlc_status nlc_read_options(nlc_options *to, const nlc_options *from)
+{
+    if (from) return read_struct(to, sizeof *to, from, options_ends, sizeof options_ends / sizeof *options_ends);
+    memset(to, 0, sizeof *to);
+    return NLC_OK;
+}
+
+int nlc_info_is_valid(const nlc_info *info)
+{
+    return !info || (info->struct_size >= sizeof info->struct_size && info->struct_size <= NLC_STRUCT_MAX);
+}
+
+nlc_info nlc_new_info(void)
+{
+    nlc_info record;
+    memset(&record, 0, sizeof record);
+    record.culprit = -1;
+    record.worst_contact = -1;
+    return record;
+}
+
+nlc_status nlc_report(nlc_info *info, const nlc_info *record, nlc_status status)
+{
+    if (!info) return status;
+    size_t size = info->struct_size, own = sizeof *record;
+    memcpy(info, record, size < own ? size : own);
+    info->struct_size = size;
+    if (size > own) memset((unsigned char *)info + own, 0, size - own);
+    return status;
+}
+
+nlc_status nlc_error(nlc_info *info, nlc_status status, int64_t culprit)
+{
+    nlc_info record = nlc_new_info();
+    record.culprit = culprit;
+    return nlc_report(info, &record, status);
+}

@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* sweep.c - from forces to surface displacements, particle by particle. */
+#include "network.h"
+
+#include <string.h>
+
+#include "structs.h"
+#include "vector.h"
+
+/*
+ * The side at a place of the adjacency.  The two sides of a contact of a particle with itself stand one behind the other;
+ * their order is made to depend on the normal alone, so that exchanging i and j with the normal reversed changes no bit.
+ */
+static inline int64_t side_at(const nlc_network *n, const double *normal, int64_t place)
+{
+    int64_t e = n->entry[place];
+    if (!n->self_contacts || n->i[e >> 1] != n->j[e >> 1]) return e;
+    const double *v = normal + 3 * (e >> 1);
+    double first = v[0] != 0 ? v[0] : v[1] != 0 ? v[1] : v[2];
+    return first < 0 ? e ^ 1 : e;
+}
+
+/* Fills a block from a particle's list; returns the largest magnitude among the forces. */
+static double gather(nlc_block *b, const nlc_network *n, const double *force, const double *normal, int64_t begin, int64_t end)
+{
+    double largest = 0;
+    b->count = (int)(end - begin);
+    for (int d = 0; d < b->count; d++) {
+        int64_t e = side_at(n, normal, begin + d), c = e >> 1;
+        double out = nlc_outward(e);
+        b->x[d] = out * normal[3 * c];
+        b->y[d] = out * normal[3 * c + 1];
+        b->z[d] = out * normal[3 * c + 2];
+        b->force[d] = force[c];
+        b->displacement[d] = 0;
+        double p = fabs(force[c]);
+        largest = p > largest ? p : largest;
+    }
+    return largest;
+}
+
+static void scatter(const nlc_block *b, nlc_network *n, const double *normal, int64_t begin)
+{
+    for (int d = 0; d < b->count; d++) n->side[side_at(n, normal, begin + d)] += b->displacement[d];
+}
+
+static void clear(nlc_network *n, int64_t begin, int64_t end)
+{
+    for (int64_t place = begin; place < end; place++) n->side[n->entry[place]] = 0;
+}
+
+/* A particle's kernel. */
+static nlc_kernel kernel_of(const nlc_network *n, int64_t particle)
+{
+    nlc_kernel k = n->kernel[n->material[particle]];
+    for (int c = 0; c < NLC_KERNEL_SIZE; c++) k.c[c] *= n->scale[particle];
+    return k;
+}
+
+/*
+ * All contacts of one particle, in blocks: each block with itself, then with those behind it.  Almost every particle fits
+ * into one block.
+ */
+static bool displace_particle(nlc_network *n, const double *force, const double *normal, int64_t particle)
+{
+    const nlc_model *model = n->settings.model;
+    const int64_t begin = n->start[particle], end = n->start[particle + 1];
+    const bool couples = model->within && n->scale[particle] > 0;
+    nlc_kernel kernel = {{0}};
+    nlc_block a, b;
+    bool distinct = true;
+    if (couples) kernel = kernel_of(n, particle);
+    double largest = 0;
+    clear(n, begin, end);
+    for (int64_t p = begin; p < end; p += NLC_BLOCK) {
+        int64_t p_end = end - p > NLC_BLOCK ? p + NLC_BLOCK : end;
+        double f = gather(&a, n, force, normal, p, p_end);
+        largest = f > largest ? f : largest;
+        if (!couples) continue;
+        distinct &= model->within(&a, &kernel);
+        for (int64_t q = p_end; q < end; q += NLC_BLOCK) {
+            gather(&b, n, force, normal, q, end - q > NLC_BLOCK ? q + NLC_BLOCK : end);
+            distinct &= model->between(&a, &b, &kernel);
+            scatter(&b, n, normal, q);
+        }
+        scatter(&a, n, normal, p);
+    }
+    n->largest[particle] = largest;
+    return distinct;
+}
+
+static double squared_distance(const double *normal, int64_t e, int64_t f)
+{
+    double s = 0;
+    for (int x = 0; x < 3; x++) {
+        double d = nlc_outward(e) * normal[3 * (e >> 1) + x] - nlc_outward(f) * normal[3 * (f >> 1) + x];
+        s += d * d;
+    }
+    return s;
+}
+
+/* The later one of two contacts of a particle that lie in the same direction. */
+static int64_t find_coincident(const nlc_network *n, const double *normal, int64_t particle)
+{
+    for (int64_t p = n->start[particle]; p < n->start[particle + 1]; p++)
+        for (int64_t q = n->start[particle]; q < p; q++)
+            if (squared_distance(normal, n->entry[p], n->entry[q]) < nlc_pow2(-1022)) return n->entry[p] >> 1;
+    return -1;
+}
+
+/* Exponent above 1 / the distance between the two closest directions on any particle. */
+static int closeness(const nlc_network *n, const double *normal)
+{
+    double smallest = 4;
+    for (int64_t k = 0; k < n->particle_count; k++)
+        for (int64_t p = n->start[k]; p < n->start[k + 1]; p++)
+            for (int64_t q = n->start[k]; q < p; q++) {
+                double s = squared_distance(normal, n->entry[p], n->entry[q]);
+                smallest = s < smallest ? s : smallest;
+            }
+    return nlc_exponent_above(smallest) < -1022 ? 512 : 1 - nlc_exponent_above(smallest) / 2;
+}
+
+/* Whether no intermediate of a sweep can overflow.  Exact closeness is looked at only where the bound from above fails. */
+static bool in_range(const nlc_network *n, const double *force, const double *normal)
+{
+    int e = nlc_exponent_above(nlc_largest_magnitude(force, n->contact_count)) + n->coupling_exponent +
+            nlc_exponent_above((double)n->contact_count) + 4;
+    return e + 512 <= 1020 || e + closeness(n, normal) <= 1020;
+}
+
+nlc_status nlc_displace(nlc_network *network, const double *force, const double *normal, int64_t *culprit)
+{
+    *culprit = -1;
+    if (network->settings.model->within && !in_range(network, force, normal)) return NLC_ERROR_RANGE;
+    for (int64_t k = 0; k < network->particle_count; k++)
+        if (!displace_particle(network, force, normal, k)) {
+            *culprit = find_coincident(network, normal, k);
+            return NLC_ERROR_COINCIDENT;
+        }
+    return NLC_OK;
+}
+
+nlc_status nlc_sweep(nlc_network *network, double *NLC_RESTRICT displacement, const double *NLC_RESTRICT force,
+                     const double *NLC_RESTRICT overlap, const double *NLC_RESTRICT normal, nlc_info *info)
+{
+    int64_t culprit;
+    if (!nlc_info_is_valid(info)) return NLC_ERROR_STRUCT_SIZE;
+    if (!network) return nlc_error(info, NLC_ERROR_NULL, 0);
+    if (!nlc_network_is_valid(network)) return nlc_error(info, NLC_ERROR_NETWORK, -1);
+    const int64_t count = network->contact_count;
+    if (count == 0) return nlc_error(info, NLC_OK, -1);
+    if (!displacement) return nlc_error(info, NLC_ERROR_NULL, 1);
+    if (!force) return nlc_error(info, NLC_ERROR_NULL, 2);
+    if (!normal) return nlc_error(info, NLC_ERROR_NULL, 4);
+    if (overlap && (culprit = nlc_first_not_finite(overlap, count)) >= 0) return nlc_error(info, NLC_ERROR_OVERLAP, culprit);
+    if ((culprit = nlc_first_not_unit(normal, count)) >= 0) return nlc_error(info, NLC_ERROR_NORMAL, culprit);
+    if ((culprit = nlc_first_not_finite(force, count)) >= 0) return nlc_error(info, NLC_ERROR_FORCE, culprit);
+
+    nlc_info record = nlc_new_info();
+    nlc_status status = nlc_displace(network, force, normal, &record.culprit);
+    if (status != NLC_OK) return nlc_report(info, &record, status);
+    memcpy(displacement, network->side, 2 * (size_t)count * sizeof *displacement);
+    record.sweeps = 1;
+    for (int64_t c = 0; c < count; c++) record.active += force[c] > 0;
+    return nlc_report(info, &record, NLC_OK);
+}
