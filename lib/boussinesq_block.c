@@ -6,6 +6,10 @@
  *     U [ -4(1-nu) r - 2(1-2nu) + (7-8nu)/2 t r ] = U [ c0 r + c1 + c2 t r ]:
  * one square root and one division a pair, no trigonometry, and all digits for neighbouring contacts.  The coefficient is
  * the same for (c, d) and (d, c), so each pair is looked at once.
+ *
+ * Two equal directions are an error, noticed when a block is done: DBL_MIN keeps it from dividing by zero before, and is too
+ * small to change any other result.  A comparison inside the loops would keep compilers from making vectors of them, so the
+ * sum of r is looked at: beyond 2^510 a direction has another one within 1e-153 of it.
  */
 #include <float.h>
 
@@ -25,38 +29,73 @@ void nlc_half_space_prepare(nlc_kernel *kernel, double poisson, double prefactor
     kernel->c[2] = (7 - 8 * poisson) / 2 * prefactor;
 }
 
-/* Between contact c of a and the first n of b. */
-static inline int row(nlc_block *a, int c, nlc_block *b, int n, const nlc_kernel *kernel)
+/*
+ * All pairs of a block at a distance of shift in its list, the list taken as a ring.  Shifts 1 ... count/2 meet every pair
+ * once, and each of them is one long loop without a sum over it, which a compiler turns into vectors.
+ */
+static void ring(nlc_block *restrict a, double *restrict theirs, double *restrict nearness, int shift, int n, const nlc_kernel *kernel)
 {
-    const double x = a->x[c], y = a->y[c], z = a->z[c], force = a->force[c];
     const double c0 = kernel->c[0], c1 = kernel->c[1], c2 = kernel->c[2];
-    double mine[NLC_BLOCK];
-    int same = 0;
-    for (int d = 0; d < n; d++) {
-        double dx = x - b->x[d], dy = y - b->y[d], dz = z - b->z[d];
+    for (int c = 0; c < n; c++) {
+        const int d = c + shift;
+        double dx = a->x[c] - a->x[d], dy = a->y[c] - a->y[d], dz = a->z[c] - a->z[d];
         double t = dx * dx + dy * dy + dz * dz;
-        same |= t < DBL_MIN;
-        t = t < DBL_MIN ? DBL_MIN : t; /* nothing is divided by zero before the error is noticed */
-        double r = 1 / sqrt(t), k = c1 + r * (c0 + c2 * t);
-        b->displacement[d] += k * force;
-        mine[d] = k * b->force[d];
+        double r = 1 / sqrt(t + DBL_MIN), k = c1 + r * (c0 + c2 * t);
+        nearness[c] += r;
+        a->displacement[c] += k * a->force[d];
+        theirs[d] += k * a->force[c];
     }
-    double sum = 0;
-    for (int d = 0; d < n; d++) sum += mine[d];
-    a->displacement[c] += sum;
-    return same;
+}
+
+static bool distinct(const double *nearness, int n)
+{
+    for (int c = 0; c < n; c++)
+        if (nearness[c] >= nlc_pow2(510)) return false;
+    return true;
+}
+
+static void copy_ring(double *x, int n)
+{
+    for (int c = 0; c < n; c++) x[n + c] = x[c];
 }
 
 bool nlc_case_one_within(nlc_block *a, const nlc_kernel *kernel)
 {
-    int same = 0;
-    for (int c = 1; c < a->count; c++) same |= row(a, c, a, c, kernel);
-    return !same;
+    const int n = a->count;
+    double theirs[2 * NLC_BLOCK], nearness[NLC_BLOCK];
+    copy_ring(a->x, n);
+    copy_ring(a->y, n);
+    copy_ring(a->z, n);
+    copy_ring(a->force, n);
+    for (int c = 0; c < 2 * n; c++) theirs[c] = 0;
+    for (int c = 0; c < n; c++) nearness[c] = 0;
+    for (int shift = 1; 2 * shift < n; shift++) ring(a, theirs, nearness, shift, n, kernel);
+    if (n % 2 == 0) ring(a, theirs, nearness, n / 2, n / 2, kernel);
+    for (int c = 0; c < n; c++) a->displacement[c] += theirs[c] + theirs[n + c];
+    return distinct(nearness, n);
+}
+
+/* Between contact c of a and all of b. */
+static void row(nlc_block *restrict a, int c, nlc_block *restrict b, double *restrict nearness, const nlc_kernel *kernel)
+{
+    const double x = a->x[c], y = a->y[c], z = a->z[c], force = a->force[c];
+    const double c0 = kernel->c[0], c1 = kernel->c[1], c2 = kernel->c[2];
+    double mine[NLC_BLOCK], sum = 0;
+    for (int d = 0; d < b->count; d++) {
+        double dx = x - b->x[d], dy = y - b->y[d], dz = z - b->z[d];
+        double t = dx * dx + dy * dy + dz * dz;
+        double r = 1 / sqrt(t + DBL_MIN), k = c1 + r * (c0 + c2 * t);
+        nearness[d] += r;
+        b->displacement[d] += k * force;
+        mine[d] = k * b->force[d];
+    }
+    for (int d = 0; d < b->count; d++) sum += mine[d];
+    a->displacement[c] += sum;
 }
 
 bool nlc_case_one_between(nlc_block *a, nlc_block *b, const nlc_kernel *kernel)
 {
-    int same = 0;
-    for (int c = 0; c < a->count; c++) same |= row(a, c, b, b->count, kernel);
-    return !same;
+    double nearness[NLC_BLOCK] = {0};
+    for (int c = 0; c < a->count; c++) row(a, c, b, nearness, kernel);
+    return distinct(nearness, b->count);
 }

@@ -39,6 +39,9 @@ static double cube_residual(double r, double y)
 double nlc_hertz_stiffness(double E1, double nu1, double R1, double E2, double nu2, double R2)
 {
     nlc_scaled q, r;
+    if (nlc_is_moderate(E1) && nlc_is_moderate(E2) && nlc_is_moderate(R1) && nlc_is_moderate(R2) && nlc_is_poisson(nu1) &&
+        nlc_is_poisson(nu2)) /* the same roundings without the scaling, in less time */
+        return 4 / (3 * ((1 - nu1 * nu1) / E1 + (1 - nu2 * nu2) / E2) * sqrt(1 / R1 + 1 / R2));
     if (!pair_of_sides(E1, nu1, R1, E2, nu2, R2, &q, &r)) return NAN;
     round_exponent(&r, 2);
     return nlc_join(4 / (3 * q.m * sqrt(r.m)), -q.e - r.e / 2);

@@ -15,8 +15,9 @@
 #define NLC_BLOCK 64
 typedef struct nlc_block {
     int count;
-    double x[NLC_BLOCK], y[NLC_BLOCK], z[NLC_BLOCK]; /* outward unit normals */
-    double force[NLC_BLOCK];
+    /* [count], with room for a copy behind it */
+    double x[2 * NLC_BLOCK], y[2 * NLC_BLOCK], z[2 * NLC_BLOCK]; /* outward unit normals */
+    double force[2 * NLC_BLOCK];
     double displacement[NLC_BLOCK]; /* added to, > 0 outward */
 } nlc_block;
 

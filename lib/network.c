@@ -72,10 +72,26 @@ static double coupling_scale(double R, nlc_material m)
     return nlc_join((1 + m.poisson) / (4 * 3.14159265358979323846 * r.m * e.m), -r.e - e.e);
 }
 
+/* Whether all radii and finite moduli are so moderate that every n_H can be held. */
+static bool are_moderate(const nlc_particles *p)
+{
+    int32_t last = -1;
+    for (int64_t k = 0; k < p->count + p->wall_count; k++) {
+        if (k < p->count && !nlc_is_moderate(nlc_radius_of(p, k))) return false;
+        int32_t m = nlc_material_of(p, k);
+        if (m == last) continue;
+        last = m;
+        double young = nlc_material_row(p, m).young;
+        if (nlc_is_finite(young) && !nlc_is_moderate(young)) return false;
+    }
+    return true;
+}
+
 /* Whether every n_H can be held; found out before there is a network. */
 static bool stiffnesses_in_range(const nlc_particles *p, const int32_t *i, const int32_t *j, int64_t count, int64_t *culprit)
 {
-    for (int64_t c = 0; c < count; c++) {
+    const bool moderate = are_moderate(p);
+    for (int64_t c = 0; c < count && !moderate; c++) {
         nlc_material a = nlc_material_row(p, nlc_material_of(p, i[c])), b = nlc_material_row(p, nlc_material_of(p, j[c]));
         *culprit = c;
         if (!nlc_is_positive(nlc_hertz_stiffness(a.young, a.poisson, i[c] < p->count ? nlc_radius_of(p, i[c]) : INFINITY,

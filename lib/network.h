@@ -86,10 +86,14 @@ typedef struct nlc_outcome {
 /* fixed_point.c: [GC] Algorithm 1 from network->current. */
 void nlc_fixed_point(nlc_network *network, const double *overlap, const double *normal, nlc_outcome *outcome);
 
-/* The force law.  No intermediate result exceeds the larger of stiffness and force. */
+/*
+ * The force law.  No intermediate result exceeds the larger of stiffness and force.
+ * The positive part is an expression, not a choice: of a choice gcc makes a vector that takes the root of both sides, and the
+ * root of a negative number raises invalid.
+ */
 static inline double nlc_law(double stiffness, double overlap)
 {
-    double x = overlap > 0 ? overlap : 0;
+    double x = 0.5 * (overlap + fabs(overlap));
     return stiffness * sqrt(x) * x;
 }
 

@@ -59,6 +59,12 @@ static inline bool nlc_is_positive_or_infinite(double x)
     return nlc_bits(x) - 1 < NLC_INFINITY_BITS;
 }
 
+/* 2^-200 <= x < 2^200: products and quotients of a few such numbers are in range */
+static inline bool nlc_is_moderate(double x)
+{
+    return nlc_bits(x) - ((uint64_t)(1023 - 200) << 52) < (uint64_t)400 << 52;
+}
+
 /* 2^e for a normal result, -1022 <= e <= 1023 */
 static inline double nlc_pow2(int e)
 {

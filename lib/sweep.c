@@ -39,14 +39,14 @@ static double gather(nlc_block *b, const nlc_network *n, const double *force, co
     return largest;
 }
 
-static void scatter(const nlc_block *b, nlc_network *n, const double *normal, int64_t begin)
+static void store(const nlc_block *b, nlc_network *n, const double *normal, int64_t begin)
 {
-    for (int d = 0; d < b->count; d++) n->side[side_at(n, normal, begin + d)] += b->displacement[d];
+    for (int d = 0; d < b->count; d++) n->side[side_at(n, normal, begin + d)] = b->displacement[d];
 }
 
-static void clear(nlc_network *n, int64_t begin, int64_t end)
+static void add(const nlc_block *b, nlc_network *n, const double *normal, int64_t begin)
 {
-    for (int64_t place = begin; place < end; place++) n->side[n->entry[place]] = 0;
+    for (int d = 0; d < b->count; d++) n->side[side_at(n, normal, begin + d)] += b->displacement[d];
 }
 
 /* A particle's kernel. */
@@ -57,33 +57,58 @@ static nlc_kernel kernel_of(const nlc_network *n, int64_t particle)
     return k;
 }
 
-/*
- * All contacts of one particle, in blocks: each block with itself, then with those behind it.  Almost every particle fits
- * into one block.
- */
+/* More contacts than a block holds: each block with itself, then with those behind it. */
+static bool displace_in_blocks(nlc_network *n, const double *force, const double *normal, int64_t begin, int64_t end,
+                               const nlc_kernel *kernel, double *largest)
+{
+    const nlc_model *model = n->settings.model;
+    nlc_block a, b;
+    bool distinct = true;
+    for (int64_t p = begin; p < end; p++) n->side[n->entry[p]] = 0;
+    for (int64_t p = begin; p < end; p += NLC_BLOCK) {
+        const int64_t p_end = end - p > NLC_BLOCK ? p + NLC_BLOCK : end;
+        const double f = gather(&a, n, force, normal, p, p_end);
+        *largest = f > *largest ? f : *largest;
+        distinct &= model->within(&a, kernel);
+        for (int64_t q = p_end; q < end; q += NLC_BLOCK) {
+            gather(&b, n, force, normal, q, end - q > NLC_BLOCK ? q + NLC_BLOCK : end);
+            distinct &= model->between(&a, &b, kernel);
+            add(&b, n, normal, q);
+        }
+        add(&a, n, normal, p);
+    }
+    return distinct;
+}
+
+/* A side without displacement has just a largest force. */
+static double largest_force(const nlc_network *n, const double *force, int64_t begin, int64_t end)
+{
+    double largest = 0;
+    for (int64_t p = begin; p < end; p++) {
+        const double f = fabs(force[n->entry[p] >> 1]);
+        largest = f > largest ? f : largest;
+    }
+    return largest;
+}
+
 static bool displace_particle(nlc_network *n, const double *force, const double *normal, int64_t particle)
 {
     const nlc_model *model = n->settings.model;
     const int64_t begin = n->start[particle], end = n->start[particle + 1];
-    const bool couples = model->within && n->scale[particle] > 0;
-    nlc_kernel kernel = {{0}};
-    nlc_block a, b;
     bool distinct = true;
-    if (couples) kernel = kernel_of(n, particle);
     double largest = 0;
-    clear(n, begin, end);
-    for (int64_t p = begin; p < end; p += NLC_BLOCK) {
-        int64_t p_end = end - p > NLC_BLOCK ? p + NLC_BLOCK : end;
-        double f = gather(&a, n, force, normal, p, p_end);
-        largest = f > largest ? f : largest;
-        if (!couples) continue;
-        distinct &= model->within(&a, &kernel);
-        for (int64_t q = p_end; q < end; q += NLC_BLOCK) {
-            gather(&b, n, force, normal, q, end - q > NLC_BLOCK ? q + NLC_BLOCK : end);
-            distinct &= model->between(&a, &b, &kernel);
-            scatter(&b, n, normal, q);
-        }
-        scatter(&a, n, normal, p);
+    if (!model->within || n->scale[particle] == 0) {
+        for (int64_t p = begin; p < end; p++) n->side[n->entry[p]] = 0;
+        largest = largest_force(n, force, begin, end);
+    } else if (end - begin > NLC_BLOCK) {
+        const nlc_kernel kernel = kernel_of(n, particle);
+        distinct = displace_in_blocks(n, force, normal, begin, end, &kernel, &largest);
+    } else if (end > begin) {
+        const nlc_kernel kernel = kernel_of(n, particle);
+        nlc_block a;
+        largest = gather(&a, n, force, normal, begin, end);
+        distinct = model->within(&a, &kernel);
+        store(&a, n, normal, begin);
     }
     n->largest[particle] = largest;
     return distinct;
@@ -104,7 +129,7 @@ static int64_t find_coincident(const nlc_network *n, const double *normal, int64
 {
     for (int64_t p = n->start[particle]; p < n->start[particle + 1]; p++)
         for (int64_t q = n->start[particle]; q < p; q++)
-            if (squared_distance(normal, n->entry[p], n->entry[q]) < nlc_pow2(-1022)) return n->entry[p] >> 1;
+            if (squared_distance(normal, n->entry[p], n->entry[q]) < nlc_pow2(-1000)) return n->entry[p] >> 1;
     return -1;
 }
 
