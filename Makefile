@@ -47,9 +47,9 @@ SHARED := $(B)/libnlcontact.so.$(VERSION)
 PC := $(B)/nlcontact.pc
 MAN := $(sort $(wildcard $(S)/man/*.3))
 
-.PHONY: all help lib demo bench packing check setup install uninstall dist clean
+.PHONY: all help lib demo bench packing check setup install uninstall dist clean FORCE
 all: lib packing ## build the libraries and the packing program
-lib: $(STATIC) $(SHARED) $(PC)
+lib: $(STATIC) $(SHARED) ## build the static and the shared library
 
 help: ## list the targets
 	@sed -n 's/^\([a-z][a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(S)/Makefile | expand -t 20
@@ -70,11 +70,12 @@ $(SHARED): $(LIB_OBJ) $(S)/lib/nlcontact.map
 	ln -sf $(SONAME) $(B)/libnlcontact.so
 
 # Directories below the prefix are written relative to it, so that the file survives `pkg-config --define-prefix`.
-$(PC): $(S)/nlcontact.pc.in $(S)/include/nlcontact.h $(S)/Makefile
+# Made anew by every install: it depends on variables, not on files.
+$(PC): FORCE
 	@mkdir -p $(@D)
 	sed -e 's|@prefix@|$(prefix)|' -e 's|@exec_prefix@|$(patsubst $(prefix)%,$${prefix}%,$(exec_prefix))|' \
 		-e 's|@libdir@|$(patsubst $(exec_prefix)/%,$${exec_prefix}/%,$(libdir))|' \
-		-e 's|@includedir@|$(patsubst $(prefix)/%,$${prefix}/%,$(includedir))|' -e 's|@version@|$(VERSION)|' $< > $@
+		-e 's|@includedir@|$(patsubst $(prefix)/%,$${prefix}/%,$(includedir))|' -e 's|@version@|$(VERSION)|' $(S)/nlcontact.pc.in > $@
 
 # ---- programs on a packing
 BENCH_SRC := $(sort $(wildcard $(S)/bench/*.c))
@@ -87,7 +88,7 @@ $(B)/bench/%.o: $(S)/bench/%.c
 $(B)/bench/%: $(B)/bench/%.o $(BENCH_COMMON) $(STATIC)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
 
-packing: $(B)/bench/packing
+packing: $(B)/bench/packing ## build bench/packing, the same for a packing of your own
 demo: $(B)/bench/packing ## a real packing: forces with and without the coupling, a table, a picture, a ParaView file
 	@$(B)/bench/packing --svg $(B)/demo.svg --vtk $(B)/demo.vtk $(S)/bench/data/b_die125_rd0.80.csv
 PACKING ?= $(S)/bench/data/a_mono1000_periodic.csv
@@ -117,7 +118,7 @@ setup: ## install what the tests need with the system's package manager
 	@sh $(S)/tests/setup
 
 # ---- installation
-install: lib ## install headers, libraries, man pages and nlcontact.pc below DESTDIR and PREFIX
+install: lib $(PC) ## install headers, libraries, man pages and nlcontact.pc below DESTDIR and PREFIX
 	$(INSTALL) -d $(DESTDIR)$(includedir) $(DESTDIR)$(libdir)/pkgconfig $(DESTDIR)$(mandir)/man3
 	$(INSTALL) -m 644 $(S)/include/nlcontact.h $(DESTDIR)$(includedir)/
 	$(INSTALL) -m 644 $(STATIC) $(DESTDIR)$(libdir)/
@@ -136,8 +137,9 @@ DISTNAME := nlcontact-$(VERSION)
 DIST_FILES = Makefile README COPYING nlcontact.pc.in include lib tests bench man
 dist: ## make a source archive, the same bytes every time
 	@mkdir -p $(B)
-	cd $(S) && tar --sort=name --owner=0 --group=0 --numeric-owner --mtime=@0 --format=gnu --exclude='./build*' \
-		--transform='s|^|$(DISTNAME)/|' -cf - $(DIST_FILES) | gzip -n -9 > $(abspath $(B))/$(DISTNAME).tar.gz
+	cd $(S) && tar --sort=name --owner=0 --group=0 --numeric-owner --mode=u+rw,go=rX --mtime=@0 --format=gnu \
+		--transform='s|^|$(DISTNAME)/|' -cf $(abspath $(B))/$(DISTNAME).tar $(DIST_FILES)
+	gzip -n -9 -f $(B)/$(DISTNAME).tar
 	@echo $(B)/$(DISTNAME).tar.gz
 
 clean: ## remove everything that was built

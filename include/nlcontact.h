@@ -308,7 +308,8 @@ typedef struct nlc_options {
 
 /*
  * What happened.  Never a result: it is written whatever the status, up to the smaller of struct_size and this version's
- * size; bytes beyond are zeroed.  A NULL pointer to info is allowed everywhere.  Set struct_size before the call.
+ * size; bytes beyond are zeroed.  A NULL pointer to info is allowed everywhere.  Set struct_size before the call: without it
+ * nothing can be written, and NLC_ERROR_STRUCT_SIZE is returned.
  */
 typedef struct nlc_info {
     size_t struct_size;     /* in: sizeof(nlc_info) */

@@ -96,7 +96,7 @@ void nlc_fixed_point(nlc_network *n, const double *overlap, const double *normal
     const double runaway = RUNAWAY * nlc_largest_magnitude(overlap, n->contact_count);
     state s = {.rate = FIRST_RATE, .last_rate = FIRST_RATE, .smallest = INFINITY};
     start(n, overlap);
-    for (int64_t sweeps = 1; sweeps <= n->settings.max_sweeps; sweeps++) {
+    for (int64_t sweeps = 1; out->sweeps < n->settings.max_sweeps; sweeps++) {
         out->sweeps++;
         nlc_status status = nlc_displace(n, n->force, normal, &out->culprit);
         if (status != NLC_OK) return finish(out, status, 0, -1);

@@ -59,7 +59,8 @@ static void iterate(nlc_network *n, const double *overlap, const double *normal,
 {
     start_from(n, overlap, nonlocal);
     nlc_fixed_point(n, overlap, normal, out);
-    if (out->status == NLC_WARNING_NOT_CONVERGED && !all_zero(nonlocal, n->contact_count)) {
+    if (out->status == NLC_WARNING_NOT_CONVERGED && out->sweeps < n->settings.max_sweeps &&
+        !all_zero(nonlocal, n->contact_count)) {
         start_from(n, overlap, 0); /* it may have been a bad start */
         nlc_fixed_point(n, overlap, normal, out);
     }
