@@ -1,5 +1,6 @@
 # libnlcontact.  GNU make; `make help` lists the targets.  All output goes under $(B).
 .DELETE_ON_ERROR:
+.SECONDARY:
 .SUFFIXES:
 
 VERSION := $(shell sed -n 's/^.define NLC_VERSION_[A-Z]* //p' $(dir $(lastword $(MAKEFILE_LIST)))include/nlcontact.h | paste -sd. -)

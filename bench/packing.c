@@ -1,0 +1,261 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* packing.c - the forces of a packing with and without the coupling of its contacts. */
+#include <errno.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "analysis.h"
+#include "neighbours.h"
+#include "nlcontact.h"
+#include "packing_io.h"
+#include "picture.h"
+#include "table.h"
+#include "timing.h"
+#include "vtk.h"
+
+enum { EXIT_USAGE = 2 };
+
+typedef struct settings {
+    const char *file, *svg, *vtk;
+    const analysis_model *model; /* NULL: all */
+    double reach;
+    nlc_options options;
+    bool csv;
+} settings;
+
+static const char usage[] = "usage: packing [options] FILE\n"
+                            "\n"
+                            "Computes the contact forces of a packing of elastic spheres by the Hertz law alone and with\n"
+                            "the coupling of the contacts of each sphere, and prints what differs.\n"
+                            "\n"
+                            "FILE is NAME.csv, NAME.header.txt or NAME.f64le; bench/README describes the format.\n"
+                            "\n"
+                            "  --model NAME     hertz, gonzalez-cuitino or half-space: only this beside Hertz (default: all)\n"
+                            "  --tolerance T    error of a force over the largest force on either sphere (default: 1e-8)\n"
+                            "  --max-sweeps N   give up after N multiplications by the coupling matrix (default: 1000)\n"
+                            "  --prefactor G    of the half-space displacements (default: 1, as Gonzalez-Cuitino)\n"
+                            "  --reach X        a gap below X (R_i + R_j) / 2 makes a pair a candidate (default: 0.3)\n"
+                            "  --csv            print comma-separated values in SI units\n"
+                            "  --svg FILE       write a picture of the force chains, Hertz beside the first other model\n"
+                            "  --vtk FILE       write contacts and forces for ParaView\n"
+                            "  --version        print the version of the library\n"
+                            "  --help           print this\n"
+                            "\n"
+                            "Exit status: 0 success, also with a warning that forces miss the tolerance; 1 failure;\n"
+                            "2 wrong usage.\n";
+
+/* ---- command line */
+
+static int complain(const char *text, const char *culprit)
+{
+    fprintf(stderr, "packing: %s: %s (packing --help explains)\n", culprit, text);
+    return EXIT_USAGE;
+}
+
+static bool to_number(const char *text, double *x)
+{
+    char *end;
+    *x = strtod(text, &end);
+    return end != text && *end == '\0' && isfinite(*x);
+}
+
+static int set_model(settings *s, const char *value)
+{
+    for (int k = 0; k < ANALYSIS_MODELS; k++)
+        if (strcmp(value, analysis_models[k].option) == 0) s->model = &analysis_models[k];
+    return s->model ? 0 : complain("no such model", value);
+}
+
+static int set_tolerance(settings *s, const char *value)
+{
+    if (!to_number(value, &s->options.tolerance) || s->options.tolerance <= 0)
+        return complain("the tolerance is not a positive number", value);
+    return 0;
+}
+
+static int set_max_sweeps(settings *s, const char *value)
+{
+    char *end;
+    errno = 0;
+    long long n = strtoll(value, &end, 10);
+    if (errno != 0 || end == value || *end != '\0' || n < 1) return complain("not a positive number of sweeps", value);
+    s->options.max_sweeps = n;
+    return 0;
+}
+
+static int set_prefactor(settings *s, const char *value)
+{
+    /* 0 would stand for the default */
+    if (!to_number(value, &s->options.prefactor) || s->options.prefactor <= 0)
+        return complain("the prefactor is not a positive number", value);
+    return 0;
+}
+
+static int set_reach(settings *s, const char *value)
+{
+    if (!to_number(value, &s->reach) || s->reach < 0 || s->reach > NEIGHBOURS_REACH_MAX)
+        return complain("the reach is not a number from 0 to 2", value);
+    return 0;
+}
+
+static int set_svg(settings *s, const char *value)
+{
+    s->svg = value;
+    return 0;
+}
+
+static int set_vtk(settings *s, const char *value)
+{
+    s->vtk = value;
+    return 0;
+}
+
+static const struct {
+    const char *name;
+    int (*set)(settings *s, const char *value);
+} options[] = {
+    {"--model", set_model},
+    {"--tolerance", set_tolerance},
+    {"--max-sweeps", set_max_sweeps},
+    {"--prefactor", set_prefactor},
+    {"--reach", set_reach},
+    {"--svg", set_svg},
+    {"--vtk", set_vtk},
+};
+
+/* An option with a value: "--name value" or "--name=value".  *k moves to the last argument used. */
+static int parse_option(settings *s, char **argv, int *k)
+{
+    const char *argument = argv[*k];
+    for (size_t o = 0; o < sizeof options / sizeof options[0]; o++) {
+        size_t n = strlen(options[o].name);
+        if (strncmp(argument, options[o].name, n) != 0) continue;
+        if (argument[n] == '=') return options[o].set(s, argument + n + 1);
+        if (argument[n] != '\0') continue;
+        if (!argv[*k + 1]) return complain("a value is missing", argument);
+        return options[o].set(s, argv[++*k]);
+    }
+    return complain("no such option", argument);
+}
+
+/* Returns 0, EXIT_USAGE, or -1 when everything asked for has been printed. */
+static int parse_arguments(settings *s, char **argv)
+{
+    bool only_files = false;
+    for (int k = 1; argv[k]; k++) {
+        int status = 0;
+        if (only_files || argv[k][0] != '-') {
+            if (s->file) return complain("only one packing at a time", argv[k]);
+            s->file = argv[k];
+        } else if (strcmp(argv[k], "--") == 0) {
+            only_files = true;
+        } else if (strcmp(argv[k], "--csv") == 0) {
+            s->csv = true;
+        } else if (strcmp(argv[k], "--help") == 0) {
+            fputs(usage, stdout);
+            return -1;
+        } else if (strcmp(argv[k], "--version") == 0) {
+            printf("%s\n", nlc_version());
+            return -1;
+        } else {
+            status = parse_option(s, argv, &k);
+        }
+        if (status) return status;
+    }
+    if (s->file) return 0;
+    fputs(usage, stderr);
+    return EXIT_USAGE;
+}
+
+/* ---- work */
+
+typedef struct job {
+    settings set;
+    packing p;
+    neighbours n;
+    analysis results[ANALYSIS_MODELS];
+    int count;
+} job;
+
+static int fail(const char *where, const char *text)
+{
+    fprintf(stderr, "packing: %s%s%s\n", where, *where ? ": " : "", text);
+    return EXIT_FAILURE;
+}
+
+static int read_input(job *j)
+{
+    char error[PACKING_ERROR_SIZE];
+    if (packing_read(&j->p, j->set.file, true, error, sizeof error)) return fail("", error);
+    if (neighbours_find(&j->n, &j->p, j->set.reach, error, sizeof error)) return fail(j->set.file, error);
+    return 0;
+}
+
+static int solve_models(job *j)
+{
+    char text[PACKING_ERROR_SIZE];
+    timing_progress progress;
+    timing_progress_begin(&progress, "models solved");
+    for (int k = 0; k < ANALYSIS_MODELS; k++) {
+        const analysis_model *m = &analysis_models[k];
+        /* everything is compared with Hertz, which comes first */
+        if (k > 0 && j->set.model && j->set.model != m) continue;
+        timing_progress_update(&progress, k, ANALYSIS_MODELS);
+        analysis *a = &j->results[j->count++];
+        int status = analysis_run(a, m, &j->set.options, &j->p, &j->n, text, sizeof text);
+        timing_progress_end(&progress);
+        if (status) return fail(j->set.file, text);
+        if (a->status == NLC_OK) continue;
+        analysis_describe_warning(a, &j->p, &j->n, text, sizeof text);
+        fprintf(stderr, "packing: warning: %s\n", text);
+    }
+    return 0;
+}
+
+static int close_file(FILE *f, const char *path)
+{
+    bool bad = ferror(f) != 0;
+    if (fclose(f) != 0 || bad) return fail(path, "cannot be written");
+    return 0;
+}
+
+/* Hertz, and beside it the first other model if there is one. */
+static int write_picture(const job *j, const char *path, void write(FILE *, const picture_input *))
+{
+    if (!path) return 0;
+    picture_input in = {&j->p, &j->n, &j->results[0], j->count > 1 ? &j->results[1] : NULL};
+    FILE *f = fopen(path, "w");
+    if (!f) return fail(path, strerror(errno));
+    write(f, &in);
+    if (close_file(f, path)) return EXIT_FAILURE;
+    if (!j->set.csv) printf("%s written\n", path);
+    return 0;
+}
+
+static int run(job *j)
+{
+    if (read_input(j) || solve_models(j)) return EXIT_FAILURE;
+    table_input in = {&j->p, &j->n, j->set.reach, j->results, j->count};
+    table_print(stdout, &in, j->set.csv);
+    if (!j->set.csv && (j->set.svg || j->set.vtk)) putchar('\n');
+    if (write_picture(j, j->set.svg, picture_write_svg)) return EXIT_FAILURE;
+    if (write_picture(j, j->set.vtk, vtk_write)) return EXIT_FAILURE;
+    return 0;
+}
+
+int main(int argc, char **argv)
+{
+    (void)argc;
+    job j = {.set = {.reach = NEIGHBOURS_REACH, .options = {.struct_size = sizeof(nlc_options)}}};
+    int status = parse_arguments(&j.set, argv);
+    if (status > 0) return status;
+    if (status == 0) status = run(&j);
+    for (int k = 0; k < j.count; k++) analysis_free(&j.results[k]);
+    neighbours_free(&j.n);
+    packing_free(&j.p);
+    if (fflush(stdout) != 0 || ferror(stdout)) return fail("standard output", "cannot be written");
+    return status < 0 ? EXIT_SUCCESS : status;
+}

@@ -1,0 +1,376 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * test_errors.c - every kind of bad input gets its own status and the index of the culprit, and changes nothing.
+ *
+ * Floating-point traps are on throughout: a check that compares a NaN would end the program.
+ */
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene.h"
+
+#define STATUSES 64
+static bool met[STATUSES]; /* errors that the tests have caused, by -status */
+
+/* A scene of 4 particles and a wall, 5 contacts, with everything that a call reads and writes. */
+typedef struct fixture {
+    scene s;
+    nlc_particles view;
+    nlc_options options;
+    nlc_info info;
+    size_t size;
+    double force[5], nonlocal[5], displacement[10], F[12], F_wall[3];
+} fixture;
+
+static fixture f;
+static fixture before;
+static void *memory_before;
+
+static void setup(void)
+{
+    memset(&f, 0, sizeof f);
+    scene_init(&f.s);
+    const int32_t m = scene_material(&f.s, 1e6, 0.3), rigid = scene_material(&f.s, INFINITY, 0.2);
+    scene_material(&f.s, -1, 7); /* not in use, so it may be anything */
+    for (int k = 0; k < 4; k++) scene_particle(&f.s, 1 + 0.1 * k, k == 3 ? rigid : m);
+    scene_wall(&f.s, rigid);
+    scene_contact(&f.s, 0, 1, 0.01, 1, 0, 0);
+    scene_contact(&f.s, 1, 2, 0.02, 0, 1, 0);
+    scene_contact(&f.s, 2, 0, 0.01, -1, -1, 0);
+    scene_contact(&f.s, 3, 0, -0.01, 0, 0, 1);
+    scene_contact(&f.s, 4, 1, 0.01, 0, 0, 1);
+    ck_assert_int_eq(scene_build(&f.s), NLC_OK);
+    f.view = scene_view(&f.s);
+    f.options.struct_size = sizeof f.options;
+    f.info.struct_size = sizeof f.info;
+    f.size = nlc_network_size(&f.view, f.s.contacts, &f.options);
+    ck_assert_uint_gt(f.size, 0);
+    for (int c = 0; c < 5; c++) f.force[c] = 1 + c;
+    memory_before = malloc(f.size);
+    ck_assert_ptr_nonnull(memory_before);
+    fp_trap();
+}
+
+static void teardown(void)
+{
+    fp_untrap();
+    scene_free(&f.s);
+    free(memory_before);
+}
+
+/* A call must give this status and culprit, and change nothing but the info. */
+static void keep(void)
+{
+    f.info = (nlc_info){.struct_size = sizeof f.info, .culprit = 12345};
+    before = f;
+    memcpy(memory_before, f.s.memory, f.size);
+}
+
+static void demand(nlc_status found, nlc_status status, int64_t culprit)
+{
+    ck_assert_msg(found == status, "status %d \"%s\", expected %d \"%s\"", found, nlc_strerror(found), status, nlc_strerror(status));
+    ck_assert_int_eq(f.info.culprit, culprit);
+    f.info = before.info;
+    ck_assert_msg(memcmp(&f, &before, sizeof f) == 0, "%s: something was changed", nlc_strerror(status));
+    if (status < 0 && status > -STATUSES) met[-status] = true;
+}
+
+static nlc_status init(void)
+{
+    return nlc_network_init(&f.s.network, f.s.memory, f.size, &f.view, f.s.i, f.s.j, f.s.contacts, &f.options, &f.info);
+}
+
+static nlc_status solve(void)
+{
+    return nlc_solve(f.s.network, f.force, f.nonlocal, f.s.overlap, f.s.normal, &f.info);
+}
+
+static nlc_status sweep(void)
+{
+    return nlc_sweep(f.s.network, f.displacement, f.force, f.s.overlap, f.s.normal, &f.info);
+}
+
+static nlc_status assemble(void)
+{
+    return nlc_assemble(f.s.network, f.F, 0, f.F_wall, f.force, f.s.normal, &f.info);
+}
+
+/* Do something to the input, call, expect, undo.  The memory of the network must be as before. */
+#define WITH(lvalue, bad, call, status, culprit)                                                                            \
+    do {                                                                                                                    \
+        __typeof__(lvalue) good_ = (lvalue);                                                                                \
+        (lvalue) = (bad);                                                                                                   \
+        keep();                                                                                                             \
+        demand(call, status, culprit);                                                                                      \
+        ck_assert(memcmp(memory_before, f.s.memory, f.size) == 0);                                                          \
+        (lvalue) = good_;                                                                                                   \
+    } while (0)
+
+/* The same for calls that may use the network's work space. */
+#define WITH_WORK(lvalue, bad, call, status, culprit)                                                                       \
+    do {                                                                                                                    \
+        __typeof__(lvalue) good_ = (lvalue);                                                                                \
+        (lvalue) = (bad);                                                                                                   \
+        keep();                                                                                                             \
+        demand(call, status, culprit);                                                                                      \
+        (lvalue) = good_;                                                                                                   \
+    } while (0)
+
+static const double not_finite[] = {NAN, -NAN, INFINITY, -INFINITY};
+
+START_TEST(particles_and_contacts)
+{
+    const double bad_radius[] = {0, -1, NAN, INFINITY, -INFINITY, -0.0}, bad_nu[] = {-1e-9, 0.5000001, NAN, INFINITY, -INFINITY};
+    const double bad_young[] = {0, -1e6, NAN, -INFINITY, -0.0};
+    for (int b = 0; b < 6; b++) WITH(f.s.radius[2], bad_radius[b], init(), NLC_ERROR_RADIUS, 2);
+    for (int b = 0; b < 5; b++) WITH(f.s.rows[0].young, bad_young[b], init(), NLC_ERROR_YOUNG, 0);
+    for (int b = 0; b < 5; b++) WITH(f.s.rows[0].poisson, bad_nu[b], init(), NLC_ERROR_POISSON, 0);
+    WITH(f.s.rows[1].poisson, NAN, init(), NLC_OK, -1); /* rigid: not looked at */
+    setup();
+    WITH(f.s.material[1], 3, init(), NLC_ERROR_MATERIAL, 1);
+    WITH(f.s.material[1], -1, init(), NLC_ERROR_MATERIAL, 1);
+    WITH(f.s.wall_material[0], INT32_MIN, init(), NLC_ERROR_MATERIAL, 4);
+    WITH(f.s.material[1], 2, init(), NLC_ERROR_YOUNG, 2); /* in use now */
+    const int32_t bad_index[] = {-1, 5, INT32_MAX, INT32_MIN};
+    for (int b = 0; b < 4; b++) WITH(f.s.i[3], bad_index[b], init(), NLC_ERROR_INDEX, 3);
+    for (int b = 0; b < 4; b++) WITH(f.s.j[1], bad_index[b], init(), NLC_ERROR_INDEX, 1);
+    WITH(f.s.j[4], 4, init(), NLC_ERROR_WALL_WALL, 4);
+    WITH(f.s.j[3], 4, init(), NLC_ERROR_RIGID_RIGID, 3);
+    WITH(f.s.j[3], 3, init(), NLC_ERROR_RIGID_RIGID, 3);
+    WITH(f.s.radius[0], 1e305, init(), NLC_ERROR_RANGE, -1); /* U = 1/(R E) is subnormal */
+}
+END_TEST
+
+START_TEST(counts_strides_and_memory)
+{
+    WITH(f.s.contacts, -1, init(), NLC_ERROR_COUNT, 6);
+    WITH(f.s.contacts, INT64_MAX, init(), NLC_ERROR_COUNT, 6);
+    WITH(f.s.contacts, INT64_MAX / 16, init(), NLC_ERROR_COUNT, 6);
+    WITH(f.view.count, -1, init(), NLC_ERROR_COUNT, 3);
+    WITH(f.view.count, INT64_MIN, init(), NLC_ERROR_COUNT, 3);
+    WITH(f.view.count, (int64_t)INT32_MAX, init(), NLC_ERROR_COUNT, 3); /* and a wall: one too many */
+    WITH(f.view.wall_count, -1, init(), NLC_ERROR_COUNT, 3);
+    WITH(f.view.wall_count, INT64_MAX, init(), NLC_ERROR_COUNT, 3);
+    WITH(f.view.material_count, -1, init(), NLC_ERROR_COUNT, 3);
+    WITH(f.view.material_count, 0, init(), NLC_ERROR_COUNT, 3);
+    WITH(f.view.material_count, INT64_MAX, init(), NLC_ERROR_COUNT, 3);
+    WITH(f.view.radius_stride, 4, init(), NLC_ERROR_STRIDE, offsetof(nlc_particles, radius_stride));
+    WITH(f.view.radius_stride, -7, init(), NLC_ERROR_STRIDE, offsetof(nlc_particles, radius_stride));
+    WITH(f.view.radius_stride, PTRDIFF_MAX / 2, init(), NLC_ERROR_STRIDE, offsetof(nlc_particles, radius_stride));
+    WITH(f.view.radius_stride, PTRDIFF_MIN, init(), NLC_ERROR_STRIDE, offsetof(nlc_particles, radius_stride));
+    WITH(f.view.material_stride, 2, init(), NLC_ERROR_STRIDE, offsetof(nlc_particles, material_stride));
+    WITH(f.view.material_size, 8, init(), NLC_ERROR_STRIDE, offsetof(nlc_particles, material_size));
+    WITH(f.view.material_size, SIZE_MAX, init(), NLC_ERROR_STRIDE, offsetof(nlc_particles, material_size));
+    const int64_t full = (int64_t)f.size;
+    WITH(f.size, f.size - 1, init(), NLC_ERROR_MEMORY_SIZE, full);
+    WITH(f.size, 0, init(), NLC_ERROR_MEMORY_SIZE, full);
+    keep();
+    demand(nlc_network_init(&f.s.network, (char *)f.s.memory + 4, f.size, &f.view, f.s.i, f.s.j, 5, 0, &f.info),
+           NLC_ERROR_ALIGNMENT, 4);
+    ck_assert_uint_eq(nlc_network_size(&f.view, -1, 0), 0);
+    ck_assert_uint_eq(nlc_network_size(&f.view, INT64_MAX, 0), 0);
+    ck_assert_uint_eq(nlc_network_size(&f.view, INT64_MAX / 8, 0), 0);
+    ck_assert_uint_eq(nlc_network_size(0, 1, 0), 0);
+}
+END_TEST
+
+START_TEST(null_pointers)
+{
+    keep();
+    demand(nlc_network_init(0, f.s.memory, f.size, &f.view, f.s.i, f.s.j, 5, 0, &f.info), NLC_ERROR_NULL, 0);
+    demand(nlc_network_init(&f.s.network, 0, f.size, &f.view, f.s.i, f.s.j, 5, 0, &f.info), NLC_ERROR_NULL, 1);
+    demand(nlc_network_init(&f.s.network, f.s.memory, f.size, 0, f.s.i, f.s.j, 5, 0, &f.info), NLC_ERROR_NULL, 3);
+    demand(nlc_network_init(&f.s.network, f.s.memory, f.size, &f.view, 0, f.s.j, 5, 0, &f.info), NLC_ERROR_NULL, 4);
+    demand(nlc_network_init(&f.s.network, f.s.memory, f.size, &f.view, f.s.i, 0, 5, 0, &f.info), NLC_ERROR_NULL, 5);
+    WITH(f.view.radius, 0, init(), NLC_ERROR_NULL_FIELD, offsetof(nlc_particles, radius));
+    WITH(f.view.materials, 0, init(), NLC_ERROR_NULL_FIELD, offsetof(nlc_particles, materials));
+    keep();
+    demand(nlc_set_options(0, 0, &f.info), NLC_ERROR_NULL, 0);
+    demand(nlc_solve(0, f.force, f.nonlocal, f.s.overlap, f.s.normal, &f.info), NLC_ERROR_NULL, 0);
+    demand(nlc_solve(f.s.network, 0, f.nonlocal, f.s.overlap, f.s.normal, &f.info), NLC_ERROR_NULL, 1);
+    demand(nlc_solve(f.s.network, f.force, 0, f.s.overlap, f.s.normal, &f.info), NLC_ERROR_NULL, 2);
+    demand(nlc_solve(f.s.network, f.force, f.nonlocal, 0, f.s.normal, &f.info), NLC_ERROR_NULL, 3);
+    demand(nlc_solve(f.s.network, f.force, f.nonlocal, f.s.overlap, 0, &f.info), NLC_ERROR_NULL, 4);
+    demand(nlc_sweep(0, f.displacement, f.force, 0, f.s.normal, &f.info), NLC_ERROR_NULL, 0);
+    demand(nlc_sweep(f.s.network, 0, f.force, 0, f.s.normal, &f.info), NLC_ERROR_NULL, 1);
+    demand(nlc_sweep(f.s.network, f.displacement, 0, 0, f.s.normal, &f.info), NLC_ERROR_NULL, 2);
+    demand(nlc_sweep(f.s.network, f.displacement, f.force, 0, 0, &f.info), NLC_ERROR_NULL, 4);
+    demand(nlc_assemble(0, f.F, 0, 0, f.force, f.s.normal, &f.info), NLC_ERROR_NULL, 0);
+    demand(nlc_assemble(f.s.network, 0, 0, 0, f.force, f.s.normal, &f.info), NLC_ERROR_NULL, 1);
+    demand(nlc_assemble(f.s.network, f.F, 0, 0, 0, f.s.normal, &f.info), NLC_ERROR_NULL, 4);
+    demand(nlc_assemble(f.s.network, f.F, 0, 0, f.force, 0, &f.info), NLC_ERROR_NULL, 5);
+    ck_assert_int_eq(nlc_solve(f.s.network, f.force, f.nonlocal, 0, f.s.normal, 0), NLC_ERROR_NULL); /* no info either */
+}
+END_TEST
+
+START_TEST(options)
+{
+    WITH(f.options.model, 6, init(), NLC_ERROR_MODEL, 6);
+    WITH(f.options.model, -1, init(), NLC_ERROR_MODEL, -1);
+    WITH(f.options.model, NLC_MODEL_LOVE, init(), NLC_ERROR_NOT_AVAILABLE, NLC_MODEL_LOVE);
+    WITH(f.options.model, NLC_MODEL_SPHERE, init(), NLC_ERROR_NOT_AVAILABLE, NLC_MODEL_SPHERE);
+    WITH(f.options.model, NLC_MODEL_POINT_FORCE, init(), NLC_ERROR_NOT_AVAILABLE, NLC_MODEL_POINT_FORCE);
+    WITH(f.options.method, -1, init(), NLC_ERROR_METHOD, -1);
+    WITH(f.options.method, 99, init(), NLC_ERROR_METHOD, 99);
+    const double bad[] = {NAN, INFINITY, -INFINITY, -1e-300};
+    for (int b = 0; b < 4; b++) {
+        WITH(f.options.tolerance, bad[b], init(), NLC_ERROR_OPTION, offsetof(nlc_options, tolerance));
+        WITH(f.options.prefactor, bad[b], init(), NLC_ERROR_OPTION, offsetof(nlc_options, prefactor));
+    }
+    WITH(f.options.max_sweeps, -1, init(), NLC_ERROR_OPTION, offsetof(nlc_options, max_sweeps));
+    WITH(f.options.simd, 77, init(), NLC_ERROR_OPTION, offsetof(nlc_options, simd));
+    WITH(f.options.reserved, 1, init(), NLC_ERROR_OPTION, offsetof(nlc_options, reserved));
+    WITH(f.options.prefactor, 1e305, init(), NLC_ERROR_RANGE, -1);
+    WITH(f.options.prefactor, 1e305, nlc_set_options(f.s.network, &f.options, &f.info), NLC_ERROR_RANGE, -1);
+    WITH(f.options.method, 99, nlc_set_options(f.s.network, &f.options, &f.info), NLC_ERROR_METHOD, 99);
+    double stiffness[5] = {1, 2, 3, 4, 5};
+    f.options.stiffness = stiffness;
+    const double bad_stiffness[] = {0, -1, NAN, INFINITY};
+    for (int b = 0; b < 4; b++) {
+        WITH(stiffness[3], bad_stiffness[b], init(), NLC_ERROR_STIFFNESS, 3);
+        WITH(stiffness[3], bad_stiffness[b], nlc_set_options(f.s.network, &f.options, &f.info), NLC_ERROR_STIFFNESS, 3);
+    }
+    uint64_t not_a_network[40] = {0};
+    keep();
+    demand(nlc_set_options((nlc_network *)not_a_network, 0, &f.info), NLC_ERROR_NETWORK, -1);
+    demand(nlc_solve((nlc_network *)not_a_network, f.force, f.nonlocal, f.s.overlap, f.s.normal, &f.info), NLC_ERROR_NETWORK, -1);
+    demand(nlc_sweep((nlc_network *)not_a_network, f.displacement, f.force, 0, f.s.normal, &f.info), NLC_ERROR_NETWORK, -1);
+    demand(nlc_assemble((nlc_network *)not_a_network, f.F, 0, 0, f.force, f.s.normal, &f.info), NLC_ERROR_NETWORK, -1);
+}
+END_TEST
+
+/* A program built against another header: shorter structs count as followed by zeros, longer ones must be. */
+START_TEST(struct_sizes)
+{
+    WITH(f.view.struct_size, 0, init(), NLC_ERROR_STRUCT_SIZE, 3);
+    WITH(f.view.struct_size, 1u << 20, init(), NLC_ERROR_STRUCT_SIZE, 3);
+    WITH(f.options.struct_size, sizeof(size_t) - 1, init(), NLC_ERROR_STRUCT_SIZE, 7);
+    WITH(f.options.struct_size, SIZE_MAX, nlc_set_options(f.s.network, &f.options, &f.info), NLC_ERROR_STRUCT_SIZE, 1);
+    struct {
+        nlc_options o;
+        unsigned char more[40];
+    } longer = {.o = f.options};
+    longer.o.struct_size = sizeof longer;
+    ck_assert_int_eq(nlc_set_options(f.s.network, &longer.o, &f.info), NLC_OK);
+    longer.more[39] = 1;
+    keep();
+    demand(nlc_set_options(f.s.network, &longer.o, &f.info), NLC_ERROR_RESERVED, 1);
+    for (size_t size = sizeof(size_t); size <= sizeof f.options; size++) {
+        nlc_options o = f.options;
+        o.struct_size = size;
+        o.tolerance = size >= offsetof(nlc_options, tolerance) + sizeof o.tolerance ? 1e-3 : NAN; /* cut off: not seen */
+        ck_assert_int_eq(nlc_set_options(f.s.network, &o, 0), NLC_OK);
+    }
+    for (size_t size = sizeof(size_t); size < sizeof f.view; size++) { /* without walls, contact 4 has no second body */
+        f.view.struct_size = size;
+        ck_assert_int_lt(init(), 0);
+    }
+    unsigned char room[sizeof(nlc_info) + 64]; /* info: exactly struct_size bytes are written */
+    for (size_t size = sizeof(size_t); size <= sizeof room - 8; size++) {
+        memset(room, 0xa5, sizeof room);
+        memcpy(room, &size, sizeof size);
+        ck_assert_int_eq(nlc_solve(f.s.network, f.force, f.nonlocal, f.s.overlap, f.s.normal, (nlc_info *)(void *)room), NLC_OK);
+        ck_assert_int_eq(room[size], 0xa5);
+        if (size > sizeof(nlc_info)) ck_assert_int_eq(room[size - 1], 0);
+    }
+    memset(room, 0, sizeof room);
+    ck_assert_int_eq(nlc_solve(f.s.network, f.force, f.nonlocal, f.s.overlap, f.s.normal, (nlc_info *)(void *)room),
+                     NLC_ERROR_STRUCT_SIZE);
+}
+END_TEST
+
+START_TEST(arrays_over_contacts)
+{
+    for (int b = 0; b < 4; b++) {
+        const double bad = not_finite[b];
+        WITH_WORK(f.s.overlap[2], bad, solve(), NLC_ERROR_OVERLAP, 2);
+        WITH_WORK(f.s.overlap[2], bad, sweep(), NLC_ERROR_OVERLAP, 2);
+        WITH_WORK(f.nonlocal[4], bad, solve(), NLC_ERROR_NONLOCAL, 4);
+        WITH_WORK(f.force[0], bad, sweep(), NLC_ERROR_FORCE, 0);
+        WITH_WORK(f.force[0], bad, assemble(), NLC_ERROR_FORCE, 0);
+        WITH_WORK(f.F[7], bad, assemble(), NLC_ERROR_TOTAL_FORCE, 2);
+        WITH_WORK(f.F_wall[1], bad, assemble(), NLC_ERROR_TOTAL_FORCE, 4);
+    }
+    const double bad_normal[] = {NAN, INFINITY, -INFINITY, 0, 1 + 1e-6, 1 - 1e-6, 1e200, 3};
+    for (int b = 0; b < 8; b++) { /* contact 1 has (0, 1, 0) */
+        WITH_WORK(f.s.normal[4], bad_normal[b], solve(), NLC_ERROR_NORMAL, 1);
+        WITH_WORK(f.s.normal[4], bad_normal[b], sweep(), NLC_ERROR_NORMAL, 1);
+        WITH_WORK(f.s.normal[4], bad_normal[b], assemble(), NLC_ERROR_NORMAL, 1);
+    }
+    f.s.normal[4] = 1 + 4e-7; /* within the tolerance */
+    ck_assert_int_eq(solve(), NLC_OK);
+    keep();
+    demand(nlc_assemble(f.s.network, f.F, 8, 0, f.force, f.s.normal, &f.info), NLC_ERROR_STRIDE, 2);
+    demand(nlc_assemble(f.s.network, f.F, PTRDIFF_MAX, 0, f.force, f.s.normal, &f.info), NLC_ERROR_STRIDE, 2);
+}
+END_TEST
+
+START_TEST(same_direction_and_range)
+{
+    memcpy(f.s.normal + 3, (const double[]){-1, 0, 0}, 3 * sizeof(double)); /* on particle 1: contacts 0 and 1 */
+    keep();
+    demand(solve(), NLC_ERROR_COINCIDENT, 1);
+    keep();
+    demand(sweep(), NLC_ERROR_COINCIDENT, 1);
+    memcpy(f.s.normal + 3, (const double[]){0, 1, 0}, 3 * sizeof(double));
+    WITH_WORK(f.s.overlap[1], 1e300, solve(), NLC_ERROR_RANGE, -1);
+    WITH_WORK(f.s.overlap[1], -1e308, solve(), NLC_ERROR_RANGE, -1);
+    WITH_WORK(f.force[1], 1.7e308, assemble(), NLC_ERROR_RANGE, -1);
+    WITH_WORK(f.F[1], 1.7e308, assemble(), NLC_ERROR_RANGE, -1);
+    f.force[1] = 1e300; /* displacements are a millionth of it */
+    ck_assert_int_eq(sweep(), NLC_OK);
+    f.s.rows[0].young = 1e-30;
+    ck_assert_int_eq(init(), NLC_OK);
+    keep();
+    demand(sweep(), NLC_ERROR_RANGE, -1);
+}
+END_TEST
+
+/* Must be the last test: every error of the list has been caused by one before. */
+START_TEST(every_error_was_met)
+{
+#define MET(name, value, text, culprit)                                                                                     \
+    if ((value) < 0) ck_assert_msg(met[(value) < 0 ? -(value) : 0], "%s is never tested", #name);
+    NLC_STATUS_LIST(MET)
+#undef MET
+}
+END_TEST
+
+/* Nothing to do is no error, and needs no arrays. */
+START_TEST(empty_networks)
+{
+    nlc_particles none = {.struct_size = sizeof none};
+    const size_t size = nlc_network_size(&none, 0, 0);
+    ck_assert_uint_gt(size, 0);
+    void *memory = malloc(size);
+    nlc_network *network = 0;
+    ck_assert_int_eq(nlc_network_init(&network, memory, size, &none, 0, 0, 0, 0, 0), NLC_OK);
+    ck_assert_int_eq(nlc_solve(network, 0, 0, 0, 0, 0), NLC_OK);
+    ck_assert_int_eq(nlc_sweep(network, 0, 0, 0, 0, 0), NLC_OK);
+    ck_assert_int_eq(nlc_assemble(network, 0, 0, 0, 0, 0, 0), NLC_OK);
+    ck_assert_int_eq(nlc_set_options(network, 0, 0), NLC_OK);
+    free(memory);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("errors");
+    TCase *t = tcase_create("errors");
+    tcase_add_checked_fixture(t, setup, teardown);
+    tcase_add_test(t, particles_and_contacts);
+    tcase_add_test(t, counts_strides_and_memory);
+    tcase_add_test(t, null_pointers);
+    tcase_add_test(t, options);
+    tcase_add_test(t, struct_sizes);
+    tcase_add_test(t, arrays_over_contacts);
+    tcase_add_test(t, same_direction_and_range);
+    tcase_add_test(t, empty_networks);
+    tcase_add_test(t, every_error_was_met);
+    suite_add_tcase(suite, t);
+    setenv("CK_FORK", "no", 1); /* every_error_was_met looks at what the others did */
+    return run_suite(suite);
+}

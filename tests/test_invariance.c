@@ -1,0 +1,473 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* test_invariance.c - what must not change the forces: names, order, orientation, units, history; and Newton's third law. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene.h"
+
+static void cluster(scene *s, int seed, int count)
+{
+    rng g = {(uint64_t)seed};
+    scene_init(s);
+    s->options.tolerance = 1e-12;
+    scene_cluster(s, &g, count, 0.5);
+}
+
+/* A die packing and a crystal cell whose sphere touches itself, in one scene of several unconnected parts. */
+static void mixture(scene *s)
+{
+    scene_init(s);
+    scene_packing(s, "b_die125_rd0.70.csv", 0.3);
+    const int32_t m = scene_material(s, 5e9, 0.1), first = (int32_t)s->particles, last = first + 1;
+    scene_particle(s, 1e-4, m);
+    scene_particle(s, 1.3e-4, m);
+    for (int64_t c = 0; c < s->contacts; c++) { /* the walls move up by two */
+        s->i[c] += s->i[c] >= first ? 2 : 0;
+        s->j[c] += s->j[c] >= first ? 2 : 0;
+    }
+    scene_contact(s, first, first, 2e-6, 1, 2, 3);
+    scene_contact(s, first, last, 3e-6, -3, 0, 1);
+    scene_contact(s, last, last, 1e-6, 0, -1, 0);
+    scene_contact(s, first, first, 4e-6, -1, 1, -0.3);
+    scene_contact(s, last, first, 4e-6, 2, 0.1, 1); /* the same two again, through another face of the cell */
+}
+
+static double *copy(const double *a, int64_t count)
+{
+    double *b = malloc((size_t)count * sizeof *b);
+    ck_assert_ptr_nonnull(b);
+    return memcpy(b, a, (size_t)count * sizeof *b);
+}
+
+/* Exchange i and j of every contact that the pattern picks, with the normal reversed: not a bit changes. */
+START_TEST(exchange_of_sides_changes_no_bit)
+{
+    scene s;
+    mixture(&s);
+    ck_assert_int_eq(scene_solve(&s, 0), NLC_OK);
+    double *force = copy(s.force, s.contacts), *nonlocal = copy(s.nonlocal, s.contacts);
+    double *F = calloc(3 * (size_t)s.particles, sizeof *F), *G = calloc(3 * (size_t)s.particles, sizeof *G);
+    ck_assert_int_eq(nlc_assemble(s.network, F, 0, 0, s.force, s.normal, 0), NLC_OK);
+    rng g = {(uint64_t)_i};
+    for (int64_t c = 0; c < s.contacts; c++) {
+        if (_i && rng_below(&g, 2)) continue; /* first all of them, then random halves */
+        const int32_t t = s.i[c];
+        s.i[c] = s.j[c];
+        s.j[c] = t;
+        for (int x = 0; x < 3; x++) s.normal[3 * c + x] *= -1;
+    }
+    s.network = 0;
+    ck_assert_int_eq(scene_solve(&s, 0), NLC_OK);
+    ck_assert_int_eq(nlc_assemble(s.network, G, 0, 0, s.force, s.normal, 0), NLC_OK);
+    for (int64_t c = 0; c < s.contacts; c++) {
+        nlc_assert_same(s.force[c], force[c]);
+        nlc_assert_same(s.nonlocal[c], nonlocal[c]);
+    }
+    for (int64_t k = 0; k < 3 * s.particles; k++) nlc_assert_same(F[k], G[k]);
+    free(F);
+    free(G);
+    free(force);
+    free(nonlocal);
+    scene_free(&s);
+}
+END_TEST
+
+/* In another order of the contacts the sums are rounded in another order, no more. */
+START_TEST(order_of_contacts_changes_last_bits_only)
+{
+    scene s, t;
+    mixture(&s);
+    mixture(&t);
+    s.options.tolerance = t.options.tolerance = 1e-13;
+    const int64_t n = s.contacts;
+    int64_t *at = malloc((size_t)n * sizeof *at);
+    rng g = {11};
+    for (int64_t c = 0; c < n; c++) at[c] = c;
+    for (int64_t c = n - 1; c > 0; c--) {
+        const int64_t d = (int64_t)rng_below(&g, (uint64_t)c + 1), e = at[c];
+        at[c] = at[d];
+        at[d] = e;
+    }
+    for (int64_t c = 0; c < n; c++) {
+        t.i[at[c]] = s.i[c];
+        t.j[at[c]] = s.j[c];
+        t.overlap[at[c]] = s.overlap[c];
+        memcpy(t.normal + 3 * at[c], s.normal + 3 * c, 3 * sizeof(double));
+    }
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    ck_assert_int_eq(scene_build(&t), NLC_OK);
+    double *force = malloc((size_t)n * sizeof *force), *w = malloc(2 * (size_t)n * sizeof *w), *v = malloc(2 * (size_t)n * sizeof *v);
+    double *moved = malloc((size_t)n * sizeof *moved), largest = 0;
+    for (int64_t c = 0; c < n; c++) moved[at[c]] = force[c] = rng_uniform(&g, 0, 1);
+    ck_assert_int_eq(nlc_sweep(s.network, w, force, 0, s.normal, 0), NLC_OK);
+    ck_assert_int_eq(nlc_sweep(t.network, v, moved, 0, t.normal, 0), NLC_OK);
+    for (int64_t c = 0; c < 2 * n; c++) largest = fmax(largest, fabs(w[c]));
+    /* up to 20 terms, of which the largest are some times the sum */
+    for (int64_t c = 0; c < 2 * n; c++) nlc_assert_abs(v[2 * at[c / 2] + c % 2], w[c], 1e-14 * largest);
+    ck_assert_int_eq(scene_solve(&s, 0), NLC_OK);
+    ck_assert_int_eq(scene_solve(&t, 0), NLC_OK);
+    largest = 0;
+    for (int64_t c = 0; c < n; c++) largest = fmax(largest, s.force[c]);
+    for (int64_t c = 0; c < n; c++) nlc_assert_abs(t.force[at[c]], s.force[c], 3e-13 * largest); /* two solutions, 1e-13 each */
+    free(at);
+    free(force);
+    free(moved);
+    free(w);
+    free(v);
+    scene_free(&s);
+    scene_free(&t);
+}
+END_TEST
+
+/* Coefficients are symmetric: the displacement at d by a unit force at c is that at c by one at d. */
+START_TEST(coupling_is_symmetric)
+{
+    scene s;
+    mixture(&s);
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    const int64_t n = s.contacts;
+    double *force = calloc((size_t)n, sizeof *force), *w = malloc(2 * (size_t)n * sizeof *w);
+    double *row = malloc(60 * 60 * sizeof *row);
+    for (int a = 0; a < 60; a++) { /* the last 60 contacts: neighbours in the packing, and the small cells */
+        force[n - 60 + a] = 1;
+        ck_assert_int_eq(nlc_sweep(s.network, w, force, 0, s.normal, 0), NLC_OK);
+        force[n - 60 + a] = 0;
+        for (int b = 0; b < 60; b++) row[60 * a + b] = w[2 * (n - 60 + b)] + w[2 * (n - 60 + b) + 1];
+    }
+    int coupled = 0;
+    for (int a = 0; a < 60; a++)
+        for (int b = 0; b < a; b++) {
+            coupled += row[60 * a + b] != 0;
+            nlc_assert_rel(row[60 * a + b], row[60 * b + a], 1e-15); /* two sides may be added in another order */
+        }
+    ck_assert_int_gt(coupled, 60);
+    free(force);
+    free(w);
+    free(row);
+    scene_free(&s);
+}
+END_TEST
+
+/* Turned as a whole: 12 rotations by random axes. */
+START_TEST(rotation_changes_nothing)
+{
+    scene s;
+    cluster(&s, 5, 10);
+    ck_assert_int_eq(scene_solve(&s, 0), NLC_OK);
+    double *force = copy(s.force, s.contacts), *normal = copy(s.normal, 3 * s.contacts), largest = 0;
+    for (int64_t c = 0; c < s.contacts; c++) largest = fmax(largest, force[c]);
+    rng g = {9};
+    for (int turn = 0; turn < 12; turn++) {
+        double q[4], norm = 0;
+        for (int x = 0; x < 4; x++) q[x] = rng_uniform(&g, -1, 1), norm += q[x] * q[x];
+        for (int x = 0; x < 4; x++) q[x] /= sqrt(norm);
+        for (int64_t c = 0; c < s.contacts; c++) { /* v + 2 u x (u x v + w v) */
+            const double *v = normal + 3 * c;
+            const double a[3] = {q[1] * v[2] - q[2] * v[1] + q[3] * v[0], q[2] * v[0] - q[0] * v[2] + q[3] * v[1],
+                                 q[0] * v[1] - q[1] * v[0] + q[3] * v[2]};
+            s.normal[3 * c] = v[0] + 2 * (q[1] * a[2] - q[2] * a[1]);
+            s.normal[3 * c + 1] = v[1] + 2 * (q[2] * a[0] - q[0] * a[2]);
+            s.normal[3 * c + 2] = v[2] + 2 * (q[0] * a[1] - q[1] * a[0]);
+        }
+        memset(s.nonlocal, 0, (size_t)s.contacts * sizeof *s.nonlocal);
+        ck_assert_int_eq(scene_solve(&s, 0), NLC_OK);
+        for (int64_t c = 0; c < s.contacts; c++) nlc_assert_abs(s.force[c], force[c], 3e-12 * largest);
+    }
+    free(force);
+    free(normal);
+    scene_free(&s);
+}
+END_TEST
+
+/* Lengths times 4^a and moduli times 2^b: forces times 4^(2a) 2^b, to the last bit (4: so that roots scale exactly too). */
+START_TEST(units_change_no_bit)
+{
+    const int a = (int[]){1, -5, 40, 0, -60}[_i], b = (int[]){0, 20, -100, 300, 77}[_i];
+    scene s, t;
+    cluster(&s, 3, 8);
+    cluster(&t, 3, 8);
+    for (int64_t k = 0; k < t.particles; k++) t.radius[k] = ldexp(t.radius[k], 2 * a);
+    for (int64_t m = 0; m < t.materials; m++) t.rows[m].young = ldexp(t.rows[m].young, b);
+    for (int64_t c = 0; c < t.contacts; c++) t.overlap[c] = ldexp(t.overlap[c], 2 * a);
+    ck_assert_int_eq(scene_solve(&s, 0), NLC_OK);
+    ck_assert_int_eq(scene_solve(&t, 0), NLC_OK);
+    for (int64_t c = 0; c < s.contacts; c++) {
+        nlc_assert_same(t.force[c], ldexp(s.force[c], 4 * a + b));
+        nlc_assert_same(t.nonlocal[c], ldexp(s.nonlocal[c], 2 * a));
+    }
+    scene_free(&s);
+    scene_free(&t);
+}
+END_TEST
+
+/* CGS instead of SI: no power of two, so to rounding. */
+START_TEST(centimetre_gram_second)
+{
+    scene s, t;
+    cluster(&s, 4, 8);
+    cluster(&t, 4, 8);
+    for (int64_t k = 0; k < t.particles; k++) t.radius[k] *= 100;
+    for (int64_t m = 0; m < t.materials; m++) t.rows[m].young *= 10;
+    for (int64_t c = 0; c < t.contacts; c++) t.overlap[c] *= 100;
+    ck_assert_int_eq(scene_solve(&s, 0), NLC_OK);
+    ck_assert_int_eq(scene_solve(&t, 0), NLC_OK);
+    for (int64_t c = 0; c < s.contacts; c++) nlc_assert_abs(t.force[c], s.force[c] * 1e5, 1e-11 * fabs(s.force[c] * 1e5) + 1e-300);
+    scene_free(&s);
+    scene_free(&t);
+}
+END_TEST
+
+/* Internal forces cancel, what the host has in F stays, walls feel what they give, rows may lie anywhere. */
+START_TEST(assembly)
+{
+    scene s;
+    mixture(&s);
+    ck_assert_int_eq(scene_solve(&s, 0), NLC_OK);
+    typedef struct row {
+        char odd, f[3 * sizeof(double)], tail[6];
+    } row;
+    row *rows = malloc((size_t)s.particles * sizeof *rows);
+    double *F = malloc(3 * (size_t)s.particles * sizeof *F), wall[18] = {0}, sum[3] = {0}, size = 0;
+    memset(rows, 0x5a, (size_t)s.particles * sizeof *rows);
+    for (int64_t k = 0; k < s.particles; k++) {
+        for (int x = 0; x < 3; x++) F[3 * k + x] = 1e-3 * (double)(k - x);
+        memcpy(rows[k].f, F + 3 * k, sizeof rows[k].f);
+    }
+    double *direct = copy(F, 3 * s.particles);
+    for (int64_t c = 0; c < s.contacts; c++)
+        for (int x = 0; x < 3; x++) {
+            if (s.i[c] == s.j[c]) continue;
+            if (s.i[c] < s.particles) direct[3 * s.i[c] + x] -= s.force[c] * s.normal[3 * c + x];
+            if (s.j[c] < s.particles) direct[3 * s.j[c] + x] += s.force[c] * s.normal[3 * c + x];
+            size += fabs(s.force[c] * s.normal[3 * c + x]);
+        }
+    ck_assert_int_eq(nlc_assemble(s.network, F, 0, wall, s.force, s.normal, 0), NLC_OK);
+    ck_assert_int_eq(nlc_assemble(s.network, (double *)(void *)rows->f, sizeof *rows, 0, s.force, s.normal, 0), NLC_OK);
+    for (int64_t k = 0; k < s.particles; k++)
+        for (int x = 0; x < 3; x++) {
+            double f;
+            memcpy(&f, rows[k].f + (size_t)x * sizeof f, sizeof f);
+            nlc_assert_same(F[3 * k + x], direct[3 * k + x]);
+            nlc_assert_same(f, F[3 * k + x]);
+            ck_assert(rows[k].odd == 0x5a && rows[k].tail[0] == 0x5a && rows[k].tail[5] == 0x5a);
+            sum[x] += F[3 * k + x] - 1e-3 * (double)(k - x);
+        }
+    for (int w = 0; w < 6; w++)
+        for (int x = 0; x < 3; x++) sum[x] += wall[3 * w + x];
+    for (int x = 0; x < 3; x++) nlc_assert_abs(sum[x], 0, 1e-15 * size + 1e-12); /* of the forces, and of the host's F */
+    ck_assert(wall[0] < 0 && wall[3] > 0 && wall[14] < 0 && wall[17] > 0); /* walls are pushed outward */
+    free(rows);
+    free(F);
+    free(direct);
+    scene_free(&s);
+}
+END_TEST
+
+/* Particle data inside structs of the host, materials with more columns than we know: the same network. */
+START_TEST(strided_particles)
+{
+    scene s;
+    cluster(&s, 6, 7);
+    ck_assert_int_eq(scene_solve(&s, 0), NLC_OK);
+    typedef struct grain {
+        char name[5];
+        char radius[sizeof(double)];
+        char material[sizeof(int32_t)];
+    } grain;
+    typedef struct row {
+        nlc_material known;
+        double unknown;
+    } row;
+    grain *grains = calloc((size_t)s.particles, sizeof *grains);
+    row *rows = calloc((size_t)s.materials, sizeof *rows);
+    for (int64_t k = 0; k < s.particles; k++) { /* the last one first: strides may be negative */
+        memcpy(grains[s.particles - 1 - k].radius, s.radius + k, sizeof(double));
+        memcpy(grains[s.particles - 1 - k].material, s.material + k, sizeof(int32_t));
+    }
+    for (int64_t m = 0; m < s.materials; m++) rows[m].known = s.rows[m];
+    nlc_particles p = scene_view(&s);
+    p.radius = (const double *)(const void *)grains[s.particles - 1].radius;
+    p.material = (const int32_t *)(const void *)grains[s.particles - 1].material;
+    p.radius_stride = p.material_stride = -(ptrdiff_t)sizeof *grains;
+    p.materials = &rows->known;
+    p.material_size = sizeof *rows;
+    nlc_network *network;
+    double *force = calloc((size_t)s.contacts, sizeof *force), *nonlocal = calloc((size_t)s.contacts, sizeof *nonlocal);
+    const size_t size = nlc_network_size(&p, s.contacts, &s.options);
+    void *memory = malloc(size);
+    ck_assert_int_eq(nlc_network_init(&network, memory, size, &p, s.i, s.j, s.contacts, &s.options, 0), NLC_OK);
+    ck_assert_int_eq(nlc_solve(network, force, nonlocal, s.overlap, s.normal, 0), NLC_OK);
+    for (int64_t c = 0; c < s.contacts; c++) nlc_assert_same(force[c], s.force[c]);
+    rows[0].unknown = 1; /* a column of a later version, in use */
+    ck_assert_int_eq(nlc_network_init(&network, memory, size, &p, s.i, s.j, s.contacts, &s.options, 0), NLC_ERROR_RESERVED);
+    free(grains);
+    free(rows);
+    free(force);
+    free(nonlocal);
+    free(memory);
+    scene_free(&s);
+}
+END_TEST
+
+/* Any finite start leads to the same forces; a second solve from the result does no more than confirm it. */
+START_TEST(start_does_not_matter)
+{
+    scene s;
+    cluster(&s, 8, 12);
+    ck_assert_int_eq(scene_solve(&s, 0), NLC_OK);
+    double *force = copy(s.force, s.contacts), largest = 0;
+    nlc_info info;
+    for (int64_t c = 0; c < s.contacts; c++) largest = fmax(largest, force[c]);
+    ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+    ck_assert_int_le(info.sweeps, 2);
+    rng g = {1};
+    const double size[] = {1e-300, 1e-9, 1e-6, 1e-3, 1, 1e30, 1e300, 1.7e308};
+    for (int a = 0; a < 8; a++) {
+        for (int64_t c = 0; c < s.contacts; c++) s.nonlocal[c] = size[a] * rng_uniform(&g, -1, 1);
+        ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+        for (int64_t c = 0; c < s.contacts; c++) nlc_assert_abs(s.force[c], force[c], 3e-12 * largest);
+    }
+    free(force);
+    scene_free(&s);
+}
+END_TEST
+
+/* Other options and back: as if the network had been built with them. */
+START_TEST(options_can_be_exchanged)
+{
+    scene s, t;
+    cluster(&s, 2, 9);
+    cluster(&t, 2, 9);
+    ck_assert_int_eq(scene_solve(&s, 0), NLC_OK);
+    nlc_options other = t.options;
+    double stiffness[64];
+    for (int c = 0; c < 64; c++) stiffness[c] = 1 + c;
+    other.model = NLC_MODEL_HALF_SPACE;
+    other.prefactor = 0.3;
+    other.stiffness = stiffness;
+    ck_assert_int_eq(scene_build(&t), NLC_OK);
+    ck_assert_int_eq(nlc_set_options(t.network, &other, 0), NLC_OK);
+    ck_assert_int_eq(nlc_set_options(t.network, &t.options, 0), NLC_OK);
+    ck_assert_int_eq(scene_solve(&t, 0), NLC_OK);
+    for (int64_t c = 0; c < s.contacts; c++) nlc_assert_same(t.force[c], s.force[c]);
+    scene_free(&s);
+    scene_free(&t);
+}
+END_TEST
+
+/* Past the end of the stable branch: a warning, and finite forces that belong to the displacements handed over. */
+START_TEST(no_solution_is_survived)
+{
+    for (double eps = 0.2; eps < 1e6; eps *= 3) {
+        scene s;
+        scene_init(&s);
+        scene_cell(&s, SIMPLE_CUBIC, 1, 1, 0.46, (const double[]){1 - eps, 1 - eps, 1 - eps});
+        for (int c = 0; c < 3; c++) s.overlap[c] = 2 * eps;
+        memcpy(s.normal, (const double[]){1, 0, 0, 0, 1, 0, 0, 0, 1}, sizeof(double[9]));
+        nlc_info info;
+        ck_assert_int_eq(scene_solve(&s, &info), NLC_WARNING_NOT_CONVERGED);
+        const double k = nlc_hertz_stiffness(1, 0.46, 1, 1, 0.46, 1);
+        for (int64_t c = 0; c < s.contacts; c++) {
+            ck_assert(isfinite(s.force[c]) && isfinite(s.nonlocal[c]));
+            nlc_assert_rel(s.force[c], nlc_hertz_force(k, s.overlap[c] + s.nonlocal[c]), 1e-15);
+        }
+        ck_assert(info.residual > 1e-8);
+        scene_free(&s);
+    }
+}
+END_TEST
+
+/* So is a limit on the sweeps. */
+START_TEST(too_few_sweeps_are_said)
+{
+    scene s;
+    cluster(&s, 2, 12);
+    s.options.max_sweeps = 3;
+    nlc_info info;
+    ck_assert_int_eq(scene_solve(&s, &info), NLC_WARNING_NOT_CONVERGED);
+    ck_assert_int_eq(info.sweeps, 3);
+    ck_assert(info.residual > 1e-12 && info.residual < 0.1);
+    ck_assert_int_ge(info.worst_contact, 0);
+    scene_free(&s);
+}
+END_TEST
+
+/* A tolerance below rounding cannot be met: said, and the forces are as good as they can be. */
+START_TEST(unreachable_tolerance_is_said)
+{
+    scene s;
+    cluster(&s, 2, 12);
+    ck_assert_int_eq(scene_solve(&s, 0), NLC_OK);
+    double *force = copy(s.force, s.contacts);
+    s.options.tolerance = 1e-20;
+    ck_assert_int_eq(nlc_set_options(s.network, &s.options, 0), NLC_OK);
+    const nlc_status status = scene_solve(&s, 0);
+    ck_assert(status == NLC_WARNING_ROUNDING || status == NLC_OK); /* a fixed point to the last bit is possible */
+    for (int64_t c = 0; c < s.contacts; c++) nlc_assert_abs(s.force[c], force[c], 1e-11 * (force[c] + 1e-3));
+    free(force);
+    scene_free(&s);
+}
+END_TEST
+
+/* All gaps: nothing touches, nothing moves.  And overlaps from very small to very large. */
+START_TEST(gaps_and_extreme_overlaps)
+{
+    scene s;
+    cluster(&s, 5, 10);
+    for (int64_t c = 0; c < s.contacts; c++) s.overlap[c] = -1e-9 * (double)(c + 1);
+    nlc_info info;
+    ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+    ck_assert_int_eq(info.active, 0);
+    nlc_assert_same(scene_total(&s), 0);
+    const double size[] = {5e-324, 1e-300, 1e-200, 1e-100, 1e-30, 1e100};
+    for (int a = 0; a < 6; a++) {
+        for (int64_t c = 0; c < s.contacts; c++) s.overlap[c] = size[a];
+        ck_assert_int_ge(scene_solve(&s, &info), 0);
+        for (int64_t c = 0; c < s.contacts; c++) ck_assert(isfinite(s.force[c]) && s.force[c] >= 0);
+    }
+    scene_free(&s);
+}
+END_TEST
+
+/* Two contacts closer and closer together push each other away; nothing but their being the same is an error. */
+START_TEST(contacts_close_together)
+{
+    for (double angle = 1; angle > 1e-13; angle /= 10) {
+        scene s;
+        scene_init(&s);
+        scene_particle(&s, 1, scene_material(&s, 1e6, 0.3));
+        const int32_t wall = 1 + scene_wall(&s, scene_material(&s, INFINITY, 0));
+        scene_contact(&s, 0, wall, 1e-4, 1, 0, 0);
+        scene_contact(&s, 0, wall, 1e-4, 1, angle, 0);
+        nlc_info info;
+        ck_assert_int_ge(scene_solve(&s, &info), 0);
+        for (int c = 0; c < 2; c++) ck_assert(isfinite(s.force[c]) && s.force[c] >= 0);
+        scene_free(&s);
+    }
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("invariance");
+    TCase *t = tcase_create("invariance");
+    tcase_add_checked_fixture(t, fp_trap, fp_untrap);
+    tcase_add_loop_test(t, exchange_of_sides_changes_no_bit, 0, 4);
+    tcase_add_test(t, order_of_contacts_changes_last_bits_only);
+    tcase_add_test(t, coupling_is_symmetric);
+    tcase_add_test(t, rotation_changes_nothing);
+    tcase_add_loop_test(t, units_change_no_bit, 0, 5);
+    tcase_add_test(t, centimetre_gram_second);
+    tcase_add_test(t, assembly);
+    tcase_add_test(t, strided_particles);
+    tcase_add_test(t, start_does_not_matter);
+    tcase_add_test(t, options_can_be_exchanged);
+    tcase_add_test(t, no_solution_is_survived);
+    tcase_add_test(t, too_few_sweeps_are_said);
+    tcase_add_test(t, unreachable_tolerance_is_said);
+    tcase_add_test(t, gaps_and_extreme_overlaps);
+    tcase_add_test(t, contacts_close_together);
+    suite_add_tcase(suite, t);
+    return run_suite(suite);
+}
