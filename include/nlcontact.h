@@ -103,8 +103,11 @@ extern "C" {
     X(NLC_ERROR_TOTAL_FORCE,    -26, "a force to be added to is not finite",                             "particle or wall")\
     X(NLC_ERROR_COINCIDENT,     -27, "two contacts of one particle lie in the same direction",           "contact")         \
     X(NLC_ERROR_RANGE,          -28, "a result is beyond the range of double",                           "contact or -1")   \
-    X(NLC_WARNING_ROUNDING,       1, "rounding keeps the forces from reaching the tolerance",            "-1")              \
-    X(NLC_WARNING_NOT_CONVERGED,  2, "not converged: forces are finite but miss the tolerance",          "-1")
+    X(NLC_ERROR_UNSTABLE,       -29, "the state is beyond the end of the stable branch",                 "-1")              \
+    X(NLC_WARNING_CLOSE,          1, "circles of contact overlap: the model does not hold there",        "-1")              \
+    X(NLC_WARNING_ROUNDING,       2, "rounding keeps the forces from reaching the tolerance",            "-1")              \
+    X(NLC_WARNING_WEAKENED,       4, "beyond the stable branch: the coupling was weakened",              "-1")              \
+    X(NLC_WARNING_NOT_CONVERGED,  8, "not converged: forces are finite but miss the tolerance",          "-1")
 
 typedef int32_t nlc_status;
 
@@ -137,7 +140,7 @@ NLC_API const char *nlc_version(void);
  * outside the domain.  Poisson's ratio: 0 <= nu <= 0.5, on a rigid side any number.
  *
  * Accuracy: worst error found in units in the last place (ulp) of the exact result, over wide random and systematic sweeps
- * of every argument including subnormal numbers (tests/test_scalar.c), with the C library's correctly working sqrt and fma.
+ * of every argument including subnormal numbers and by climbing towards worse arguments (tests/test_scalar.c).
  */
 
 /*
@@ -148,7 +151,7 @@ NLC_API const char *nlc_version(void);
  * E1, E2     Young's moduli > 0, at most one INFINITY [Pa]
  * nu1, nu2   Poisson's ratios in [0, 0.5]; not looked at on a rigid side, except that NaN gives NaN
  * R1, R2     radii > 0, at most one INFINITY [m]
- * Returns n_H [N m^(-3/2)]; NaN for two rigid or two flat sides.  Worst error 2.6 ulp.  Exchanging the sides changes no bit.
+ * Returns n_H [N m^(-3/2)]; NaN for two rigid or two flat sides.  Worst error 7 ulp.  Exchanging the sides changes no bit.
  */
 NLC_API double nlc_hertz_stiffness(double E1, double nu1, double R1, double E2, double nu2, double R2);
 
@@ -156,8 +159,8 @@ NLC_API double nlc_hertz_stiffness(double E1, double nu1, double R1, double E2, 
  * nlc_hertz_force - the Hertz law, P = n_H overlap_+^(3/2).                                                    [GC] 10
  *
  * stiffness   n_H > 0 [N m^(-3/2)], finite
- * overlap     overlap, or overlap plus nonlocal displacement [m]; <= 0 (a gap) gives 0
- * Returns the force [N].  Worst error 1.4 ulp.
+ * overlap     overlap, or overlap plus nonlocal displacement [m], finite; <= 0 (a gap) gives 0
+ * Returns the force [N].  Worst error 2.2 ulp.
  */
 NLC_API double nlc_hertz_force(double stiffness, double overlap);
 
@@ -166,7 +169,7 @@ NLC_API double nlc_hertz_force(double stiffness, double overlap);
  *
  * stiffness   n_H > 0 [N m^(-3/2)], finite
  * force       P >= 0 [N]
- * Returns the overlap [m]; NaN for a negative force.  Worst error 0.9 ulp.
+ * Returns the overlap [m]; NaN for a negative force.  Worst error 1.1 ulp.
  */
 NLC_API double nlc_hertz_overlap(double stiffness, double force);
 
@@ -176,7 +179,7 @@ NLC_API double nlc_hertz_overlap(double stiffness, double force);
  *     a^3 = (3 P / 4) [ (1-nu1^2)/E1 + (1-nu2^2)/E2 ] / (1/R1 + 1/R2)
  *
  * force   P >= 0 [N];  E1 ... R2   as for nlc_hertz_stiffness
- * Returns a [m]; NaN for a negative force, two rigid or two flat sides.  Worst error 1.5 ulp.  Exchanging the sides changes
+ * Returns a [m]; NaN for a negative force, two rigid or two flat sides.  Worst error 3 ulp.  Exchanging the sides changes
  * no bit.
  */
 NLC_API double nlc_contact_radius(double force, double E1, double nu1, double R1, double E2, double nu2, double R2);
@@ -188,7 +191,7 @@ NLC_API double nlc_contact_radius(double force, double E1, double nu1, double R1
  *
  * force    P, any sign [N];  radius   a > 0, finite [m];  r   distance from the centre of the circle [m]
  * E, nu    Young's modulus [Pa] (INFINITY gives 0), Poisson's ratio
- * Returns u_z [m], > 0 into the body for a compressive force; NaN for r outside [0, a].  Worst error 3.2 ulp.
+ * Returns u_z [m], > 0 into the body for a compressive force; NaN for r outside [0, a].  Worst error 7.5 ulp.
  */
 NLC_API double nlc_contact_displacement(double force, double radius, double r, double E, double nu);
 
@@ -203,7 +206,7 @@ NLC_API double nlc_contact_displacement(double force, double radius, double r, d
  *          flat elastic one that is a convention, since its displacement would need positions)
  * nu       Poisson's ratio
  * Returns w [m], > 0 outward: towards the neighbour, so it adds to the overlap.  The expression has a zero (s = 0.645 at
- * nu = 0.3), so accuracy is relative to the sum of the absolute terms: worst error 2.6 ulp of it.
+ * nu = 0.3), so accuracy is relative to the sum of the absolute terms: worst error 8.5 ulp of it.
  */
 NLC_API double nlc_nonlocal_displacement(double force, double theta, double R, double E, double nu);
 
@@ -214,7 +217,7 @@ NLC_API double nlc_nonlocal_displacement(double force, double theta, double R, d
  *
  * n_c, n_d   [3] unit vectors from the particle's centre to the point looked at and to the force: | |n|^2 - 1 | <= 1e-6
  * Returns w [m]; NaN if a normal is not a unit vector or both are the same.  Exchanging n_c and n_d changes no bit.
- * Worst error 4.2 ulp of the sum of the absolute terms.
+ * Worst error 9.5 ulp of the sum of the absolute terms.
  */
 NLC_API double nlc_nonlocal_displacement_between(double force, const double n_c[3], const double n_d[3], double R, double E,
                                                  double nu);
@@ -232,8 +235,9 @@ NLC_API double nlc_nonlocal_displacement_between(double force, const double n_c[
  * E, nu       Young's modulus [Pa] (INFINITY gives 0), Poisson's ratio
  * prefactor   G, [MC]'s adjustable gamma, >= 0; 1 is the elastic half-space
  * Returns w [m], > 0 outward; NaN if a normal is not a unit vector, if r_kc = 0, or where 1 + n_k.u is not positive.
- * On the undeformed sphere (r_kc = R times the difference of the outward normals) it equals nlc_nonlocal_displacement times G, for every nu
- * ([MC] says for nu = 1/2 only).  Worst error 9 ulp of the sum of the absolute terms, divided by 1 + n_k.u where that is below 1.
+ * On the undeformed sphere (r_kc = R times the difference of the outward normals) it equals nlc_nonlocal_displacement times
+ * G, for every nu ([MC] says for nu = 1/2 only).  Worst error 17 ulp of the sum of the absolute terms, every product of
+ * components in a dot product counted as a term, divided by 1 + n_k.u where that is below 1.
  */
 NLC_API double nlc_half_space_displacement(double force, const double n_k[3], const double n_c[3], const double r_kc[3],
                                            double E, double nu, double prefactor);
@@ -283,7 +287,7 @@ enum {
 
 /* How the coupled equations are solved. */
 enum {
-    NLC_METHOD_AUTOMATIC = 0,  /* the library's choice, which may change between versions */
+    NLC_METHOD_AUTOMATIC = 0,  /* the library's choice: accelerated, with a proved bound of the error's amplification */
     NLC_METHOD_FIXED_POINT = 1 /* [GC] Algorithm 1 with its erratum mended */
 };
 
@@ -318,6 +322,13 @@ typedef struct nlc_info {
     double residual;        /* estimated error: largest |P_c - exact_c| / largest force on either of c's two particles */
     int64_t worst_contact;  /* where that is; -1: nowhere */
     int64_t active;         /* contacts with a force > 0 */
+    double lambda_lower;    /* the largest eigenvalue of the tangent coupling lies between these two, see nlc_solve; where */
+    double lambda_upper;    /* nothing asked for them they are -INFINITY and INFINITY */
+    int64_t critical_particle; /* the particle that decides the upper one; -1: none */
+    double coupling;        /* smallest factor t of a particle's coupling: 1 unless weakened */
+    int64_t weakest_particle; /* where that is; -1: nowhere */
+    int64_t weakened;       /* particles with t < 1 */
+    int64_t blocks;         /* particles whose coefficients were computed for the upper bound: work beside the sweeps */
 } nlc_info;
 
 /* Who touches whom, in the caller's memory.  Opaque. */
@@ -379,20 +390,30 @@ NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *opti
  *            do.  Out: g of the forces returned, P_c = k_c (gamma_c + g_c)_+^(3/2).
  * overlap    [contacts] gamma [m], negative for candidates
  * normal     [contacts][3] unit vectors from i to j (into the wall), | |n|^2 - 1 | <= 1e-6, used as given
- * info       or NULL: sweeps, residual, worst_contact, active
+ * info       or NULL: all fields
  *
- * Tolerance: |P_c - exact_c| <= options.tolerance times the largest force on either of c's two particles.  info.residual is
- * the estimate of that error, from the observed rate of convergence, by which the iteration is stopped.
- * Erratum mended: Algorithm 1 as printed adds each sweep's displacements to those of the sweep before; here each sweep
- * starts from zero, as [GC] 9 has it.
- * A solution exists up to a load at which the largest eigenvalue lambda of the tangent coupling reaches 1 (a fold);
- * errors are amplified by 1/(1 - lambda) on the way there.  Beyond it, and where the fixed point oscillates, the best
- * forces met are returned with NLC_WARNING_NOT_CONVERGED: finite, not a solution.
+ * Tolerance: |P_c - exact_c| <= options.tolerance times the largest force on either of c's two particles, exact being the
+ * solution that is continuously connected to zero load.  Such a solution exists up to a load at which lambda, the largest
+ * eigenvalue of D^1/2 C D^1/2 (C the coupling, D the slopes dP/dx of the contacts), reaches 1; errors are amplified by
+ * 1/(1 - lambda) on the way there.  The default method stops when a residual over 1 - info.lambda_upper says that the tolerance
+ * is met, lambda_upper being a proved bound; info.residual is that estimate of the error.
+ *
+ * Beyond the end of the stable branch (lambda_upper > 0.985) the coupling of the particles that need it is weakened,
+ * C = sum of t_k C_k with t_k = min(1, 0.985 / b_k), b_k a bound that looks at the particle and at most 17 neighbours in any
+ * direction: NLC_WARNING_WEAKENED, info.coupling, .weakest_particle and .weakened.  The forces are finite and continuous in the
+ * overlaps; there is no energy.
+ *
+ * NLC_METHOD_FIXED_POINT is [GC] Algorithm 1, for reference.  Erratum mended: as printed it adds each sweep's displacements to
+ * those of the sweep before; here each sweep starts from zero, as [GC] 9 has it.  It estimates its error from the rate at
+ * which it converges, gives no bounds of lambda, and where it does not converge returns the best forces met.
+ *
+ * Contacts of one particle so close together that their circles of contact overlap (R |N_c - N_d| < a_c + a_d) are outside the
+ * validity of the model, and can have several solutions; which one is found may depend on nonlocal[]: NLC_WARNING_CLOSE.
  * Exchanging i and j of a contact with its normal reversed changes no bit of the results; reordering the contacts changes
  * the last bits.
  *
- * Returns NLC_OK; NLC_WARNING_NOT_CONVERGED, NLC_WARNING_ROUNDING; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _OVERLAP,
- * _NORMAL, _NONLOCAL, _COINCIDENT, _RANGE.
+ * Returns NLC_OK; NLC_WARNING_NOT_CONVERGED, _WEAKENED, _ROUNDING, _CLOSE, or several of them added;
+ * NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _OVERLAP, _NORMAL, _NONLOCAL, _COINCIDENT, _RANGE.
  */
 NLC_API nlc_status nlc_solve(nlc_network *network, double *NLC_RESTRICT force, double *NLC_RESTRICT nonlocal,
                              const double *NLC_RESTRICT overlap, const double *NLC_RESTRICT normal, nlc_info *info);
@@ -412,6 +433,68 @@ NLC_API nlc_status nlc_solve(nlc_network *network, double *NLC_RESTRICT force, d
  */
 NLC_API nlc_status nlc_sweep(nlc_network *network, double *NLC_RESTRICT displacement, const double *NLC_RESTRICT force,
                              const double *NLC_RESTRICT overlap, const double *NLC_RESTRICT normal, nlc_info *info);
+
+/*
+ * nlc_energy - elastic energy of a solution: its derivative by an overlap is the force there.
+ *
+ *     E = gamma.P + P.C.P / 2 - sum (3/5) P (P/k)^(2/3)
+ *
+ * network    from nlc_network_init
+ * energy     out [J]
+ * force      [contacts] P >= 0 of nlc_solve [N].  Their error enters by its square.
+ * overlap    [contacts] those that nlc_solve was given [m]
+ * normal     [contacts][3] likewise
+ * info       or NULL: residual, worst_contact: by how much the forces miss [GC] 10
+ * Only a converged solution with its full coupling has an energy: forces from a lagged sweep or a weakened state give
+ * NLC_WARNING_NOT_CONVERGED.
+ * Returns NLC_OK; NLC_WARNING_NOT_CONVERGED; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _FORCE, _OVERLAP, _NORMAL, _COINCIDENT,
+ * _RANGE.
+ */
+NLC_API nlc_status nlc_energy(nlc_network *network, double *NLC_RESTRICT energy, const double *NLC_RESTRICT force,
+                              const double *NLC_RESTRICT overlap, const double *NLC_RESTRICT normal, nlc_info *info);
+
+/*
+ * nlc_tangent - change of the forces for a small change of the overlaps at fixed normals, dP = (D^-1 - C)^-1 dgamma over the
+ * contacts with P > 0, D = dP/dx of each contact's own law.  Symmetric, positive definite on the stable branch.
+ *
+ * network     from nlc_network_init
+ * dforce      [contacts] out [N]; 0 where P = 0
+ * doverlap    [contacts] any finite values [m]
+ * force       [contacts] P >= 0 of nlc_solve [N]: the state
+ * normal      [contacts][3] as for nlc_solve
+ * info        or NULL: sweeps, residual (of the linear equations, relative)
+ * Solved by conjugate gradients to a residual of a tenth of the tolerance.  NLC_ERROR_UNSTABLE: the state is beyond the end of
+ * the stable branch, noticed only if doverlap excites the unstable mode; nlc_tangent_bound notices it always.
+ * Returns NLC_OK; NLC_WARNING_NOT_CONVERGED; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _OVERLAP (doverlap), _FORCE, _NORMAL,
+ * _COINCIDENT, _RANGE, _UNSTABLE.
+ */
+NLC_API nlc_status nlc_tangent(nlc_network *network, double *NLC_RESTRICT dforce, const double *NLC_RESTRICT doverlap,
+                               const double *NLC_RESTRICT force, const double *NLC_RESTRICT normal, nlc_info *info);
+
+/*
+ * nlc_tangent_inverse - the inverse, dgamma = (D^-1 - C) dP: one sweep.
+ *
+ * doverlap    [contacts] out [m]; 0 where P = 0
+ * dforce      [contacts] any finite values [N]; taken as 0 where P = 0
+ * network, force, normal, info   as for nlc_tangent
+ * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _FORCE (force or dforce), _NORMAL, _COINCIDENT, _RANGE.
+ */
+NLC_API nlc_status nlc_tangent_inverse(nlc_network *network, double *NLC_RESTRICT doverlap, const double *NLC_RESTRICT dforce,
+                                       const double *NLC_RESTRICT force, const double *NLC_RESTRICT normal, nlc_info *info);
+
+/*
+ * nlc_tangent_bound - an upper bound of the tangent stiffness on each particle, for the time step of an explicit integrator.
+ *
+ * network      from nlc_network_init
+ * stiffness    [particles] out: K_k, the sum over k's contacts of a bound of the contact's tangent stiffness [N/m].  With
+ *              masses m the highest frequency satisfies omega^2 <= max over particles of 2 K_k / m_k.
+ * force        [contacts] P >= 0 of nlc_solve [N]: the state
+ * normal       [contacts][3] as for nlc_solve
+ * info         or NULL: lambda_upper, critical_particle, blocks
+ * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _FORCE, _NORMAL, _RANGE, _UNSTABLE (not proved to be stable).
+ */
+NLC_API nlc_status nlc_tangent_bound(nlc_network *network, double *NLC_RESTRICT stiffness, const double *NLC_RESTRICT force,
+                                     const double *NLC_RESTRICT normal, nlc_info *info);
 
 /*
  * nlc_assemble - add the contact forces to the forces on the particles: F[i] -= P n, F[j] += P n.

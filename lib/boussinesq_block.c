@@ -33,7 +33,8 @@ void nlc_half_space_prepare(nlc_kernel *kernel, double poisson, double prefactor
  * All pairs of a block at a distance of shift in its list, the list taken as a ring.  Shifts 1 ... count/2 meet every pair
  * once, and each of them is one long loop without a sum over it, which a compiler turns into vectors.
  */
-static void ring(nlc_block *restrict a, double *restrict theirs, double *restrict nearness, int shift, int n, const nlc_kernel *kernel)
+static void ring(nlc_block *restrict a, double *restrict theirs, double *restrict nearness, int shift, int n,
+                 const nlc_kernel *kernel)
 {
     const double c0 = kernel->c[0], c1 = kernel->c[1], c2 = kernel->c[2];
     for (int c = 0; c < n; c++) {
@@ -98,4 +99,38 @@ bool nlc_case_one_between(nlc_block *a, nlc_block *b, const nlc_kernel *kernel)
     double nearness[NLC_BLOCK] = {0};
     for (int c = 0; c < a->count; c++) row(a, c, b, nearness, kernel);
     return distinct(nearness, b->count);
+}
+
+void nlc_case_one_coefficients(double *coefficient, const nlc_block *a, int c, const nlc_kernel *kernel)
+{
+    for (int d = 0; d < c; d++) {
+        double dx = a->x[c] - a->x[d], dy = a->y[c] - a->y[d], dz = a->z[c] - a->z[d];
+        double t = dx * dx + dy * dy + dz * dz, r = 1 / sqrt(t + DBL_MIN);
+        coefficient[d] = kernel->c[1] + r * (kernel->c[0] + kernel->c[2] * t);
+    }
+}
+
+static void ring_of_squares(const nlc_block *restrict a, double *restrict sum, int shift, int n, const nlc_kernel *kernel)
+{
+    const double c0 = kernel->c[0], c1 = kernel->c[1], c2 = kernel->c[2];
+    for (int c = 0; c < n; c++) {
+        const int d = c + shift;
+        double dx = a->x[c] - a->x[d], dy = a->y[c] - a->y[d], dz = a->z[c] - a->z[d];
+        double t = dx * dx + dy * dy + dz * dz, r = 1 / sqrt(t + DBL_MIN), k = c1 + r * (c0 + c2 * t);
+        sum[c] += k * k * a->force[d];
+    }
+}
+
+double nlc_case_one_squares(nlc_block *a, const nlc_kernel *kernel)
+{
+    const int n = a->count;
+    double sum[NLC_BLOCK] = {0}, total = 0;
+    copy_ring(a->x, n);
+    copy_ring(a->y, n);
+    copy_ring(a->z, n);
+    copy_ring(a->force, n);
+    for (int shift = 1; 2 * shift < n; shift++) ring_of_squares(a, sum, shift, n, kernel);
+    if (n % 2 == 0) ring_of_squares(a, sum, n / 2, n / 2, kernel);
+    for (int c = 0; c < n; c++) total += sum[c] * a->force[c];
+    return total;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* check.c - checks of the caller's arrays over contacts. */
-#include "network.h"
+#include "check.h"
+
 #include "vector.h"
 
 int64_t nlc_first_not_finite(const double *values, int64_t count)
@@ -14,6 +15,13 @@ int64_t nlc_first_not_positive(const double *values, int64_t count)
 {
     for (int64_t c = 0; c < count; c++)
         if (!nlc_is_positive(values[c])) return c;
+    return -1;
+}
+
+int64_t nlc_first_not_force(const double *values, int64_t count)
+{
+    for (int64_t c = 0; c < count; c++)
+        if (!nlc_is_finite(values[c]) || values[c] < 0) return c;
     return -1;
 }
 

@@ -21,7 +21,7 @@
 typedef struct state {
     double change, last_change; /* r of this sweep and the one before */
     double rate, last_rate;
-    double smallest; /* smallest r so far; network->best is where it was met */
+    double smallest; /* smallest r so far; network->spare[0] is where it was met */
     double highest;  /* largest overlap plus displacement */
     int64_t worst;
 } state;
@@ -69,8 +69,8 @@ static void keep_displacements(nlc_network *n, const double *overlap, double cap
 
 static void swap_best(nlc_network *n)
 {
-    double *t = n->best;
-    n->best = n->current;
+    double *t = n->spare[0];
+    n->spare[0] = n->current;
     n->current = t;
 }
 
@@ -89,18 +89,19 @@ static double remaining(state *s, int64_t sweeps)
 static void finish(nlc_outcome *out, nlc_status status, double residual, int64_t worst)
 {
     out->status = status;
-    out->residual = residual;
-    out->worst_contact = worst;
+    out->info.residual = residual;
+    out->info.worst_contact = worst;
 }
 
 void nlc_fixed_point(nlc_network *n, const double *overlap, const double *normal, nlc_outcome *out)
 {
     const double runaway = RUNAWAY * nlc_largest_magnitude(overlap, n->contact_count);
     state s = {.rate = FIRST_RATE, .last_rate = FIRST_RATE, .smallest = INFINITY};
+    n->unit = 1;
     start(n, overlap);
-    for (int64_t sweeps = 1; out->sweeps < n->settings.max_sweeps; sweeps++) {
-        out->sweeps++;
-        nlc_status status = nlc_displace(n, n->force, normal, &out->culprit);
+    for (int64_t sweeps = 1; out->info.sweeps < n->settings.max_sweeps; sweeps++) {
+        out->info.sweeps++;
+        nlc_status status = nlc_displace(n, n->force, normal, &out->info.culprit);
         if (status != NLC_OK) return finish(out, status, 0, -1);
         s.last_change = s.change;
         update_forces(n, overlap, runaway, &s);

@@ -38,6 +38,9 @@ typedef struct nlc_model {
     /* Displacements in a block by its own forces, or in two blocks by each other's.  False: two directions are the same. */
     bool (*within)(nlc_block *a, const nlc_kernel *kernel);
     bool (*between)(nlc_block *a, nlc_block *b, const nlc_kernel *kernel);
+    /* Coefficients of contact c with those before it; sum of their squares over all pairs, times both forces. */
+    void (*coefficients)(double *coefficient, const nlc_block *a, int c, const nlc_kernel *kernel);
+    double (*squares)(nlc_block *a, const nlc_kernel *kernel);
 } nlc_model;
 
 extern const nlc_model nlc_models[];
@@ -48,5 +51,7 @@ void nlc_case_one_prepare(nlc_kernel *kernel, double poisson, double prefactor);
 void nlc_half_space_prepare(nlc_kernel *kernel, double poisson, double prefactor);
 bool nlc_case_one_within(nlc_block *a, const nlc_kernel *kernel);
 bool nlc_case_one_between(nlc_block *a, nlc_block *b, const nlc_kernel *kernel);
+void nlc_case_one_coefficients(double *coefficient, const nlc_block *a, int c, const nlc_kernel *kernel);
+double nlc_case_one_squares(nlc_block *a, const nlc_kernel *kernel);
 
 #endif

@@ -35,7 +35,20 @@ static size_t lay_out(nlc_network *n, char *memory)
     n->stiffness = take(memory, &used, n->contact_count, sizeof *n->stiffness);
     n->force = take(memory, &used, n->contact_count, sizeof *n->force);
     n->current = take(memory, &used, n->contact_count, sizeof *n->current);
-    n->best = take(memory, &used, n->contact_count, sizeof *n->best);
+    n->floor = take(memory, &used, n->contact_count, sizeof *n->floor);
+    n->slope = take(memory, &used, n->contact_count, sizeof *n->slope);
+    for (int k = 0; k < 4; k++) n->spare[k] = take(memory, &used, n->contact_count, sizeof *n->spare[k]);
+    for (int k = 0; k < 4; k++) n->lanczos[k] = take(memory, &used, n->contact_count, sizeof *n->lanczos[k]);
+    for (int k = 0; k < NLC_DIRECTIONS; k++) {
+        n->direction[k] = take(memory, &used, n->contact_count, sizeof *n->direction[k]);
+        n->image[k] = take(memory, &used, n->contact_count, sizeof *n->image[k]);
+    }
+    n->share = take(memory, &used, 2 * n->contact_count, sizeof *n->share);
+    n->bound = take(memory, &used, n->particle_count, sizeof *n->bound);
+    n->norm = take(memory, &used, n->particle_count, sizeof *n->norm);
+    n->growth = take(memory, &used, n->particle_count, sizeof *n->growth);
+    n->weakening = take(memory, &used, n->particle_count, sizeof *n->weakening);
+    n->changed = take(memory, &used, n->particle_count, sizeof *n->changed);
     n->entry = take(memory, &used, 2 * n->contact_count, sizeof *n->entry);
     n->side = take(memory, &used, 2 * n->contact_count, sizeof *n->side);
     return used == SIZE_MAX ? 0 : used;

@@ -9,9 +9,11 @@
 #ifndef NLC_NETWORK_H
 #define NLC_NETWORK_H
 
+#include "check.h"
 #include "model.h"
 #include "nlcontact.h"
 #include "number.h"
+#include "small.h"
 
 #define NLC_NETWORK_MAGIC UINT64_C(0x4e4c434f4e544331) /* NLCONTC1 */
 
@@ -42,12 +44,20 @@ struct nlc_network {
     /* Set by nlc_set_options too */
     double *stiffness;  /* [contacts] */
     nlc_kernel *kernel; /* [materials] */
+    double unit;        /* coefficients are multiplied by it; set by everything that uses them */
     /* Work space; sides on walls stay 0 in side, walls in largest */
-    double *side;    /* [2 contacts] displacement of each side */
-    double *force;   /* [contacts] */
-    double *current; /* [contacts] nonlocal displacement */
-    double *best;    /* [contacts] the same, the best met so far */
-    double *largest; /* [bodies] */
+    double *side;     /* [2 contacts] displacement of each side */
+    double *force;    /* [contacts] */
+    double *current;  /* [contacts] nonlocal displacement */
+    double *largest;  /* [bodies] */
+    double *spare[4]; /* [contacts] */
+    double *lanczos[4]; /* [contacts] for blocks that do not fit on the stack */
+    double *direction[NLC_DIRECTIONS], *image[NLC_DIRECTIONS]; /* [contacts] directions kept, and C times them */
+    double *floor;    /* [contacts] smallest slope that a step may assume */
+    double *slope;    /* [contacts] D = dP/dx in the same units */
+    double *share;    /* [2 contacts] of the bound, see bound.h */
+    double *bound, *norm, *growth, *weakening; /* [particles] */
+    unsigned char *changed;                    /* [particles] */
 };
 
 /* Whether this is a network made by nlc_network_init. */
@@ -64,27 +74,32 @@ nlc_status nlc_read_settings(nlc_settings *settings, const nlc_options *options,
 bool nlc_prefactor_in_range(const nlc_network *network, const nlc_settings *settings);
 void nlc_apply_settings(nlc_network *network, const nlc_settings *settings, const double *stiffness);
 
-/* check.c: [contacts] arrays; they return the index of the first bad element, or -1. */
-int64_t nlc_first_not_finite(const double *values, int64_t count);
-int64_t nlc_first_not_positive(const double *values, int64_t count);
-int64_t nlc_first_not_unit(const double *normals, int64_t count);
-double nlc_largest_magnitude(const double *values, int64_t count);
-
 /*
- * sweep.c: displacement of every side under the given forces into network->side, and the largest |force| on every body into
- * network->largest.  NLC_ERROR_COINCIDENT (culprit: a contact) or NLC_ERROR_RANGE; then both are undefined.
+ * sweep.c: displacement of every side under the given forces into network->side, and the largest |force| on every
+ * body into network->largest.  NLC_ERROR_COINCIDENT (culprit: a contact) or NLC_ERROR_RANGE; then both are undefined.
  */
 nlc_status nlc_displace(nlc_network *network, const double *force, const double *normal, int64_t *culprit);
+
+/* The same for the sides of one particle.  False: two directions are the same. */
+bool nlc_displace_particle(nlc_network *network, const double *force, const double *normal, int64_t particle);
+
+/* A particle's kernel, in units of network->unit. */
+nlc_kernel nlc_kernel_of(const nlc_network *network, int64_t particle);
 
 /* What an iteration leaves behind: the nonlocal displacement is in network->current. */
 typedef struct nlc_outcome {
     nlc_status status;
-    int64_t culprit, sweeps, worst_contact;
-    double residual;
+    nlc_info info;
 } nlc_outcome;
 
 /* fixed_point.c: [GC] Algorithm 1 from network->current. */
 void nlc_fixed_point(nlc_network *network, const double *overlap, const double *normal, nlc_outcome *outcome);
+
+/* galerkin.c: the default. */
+void nlc_galerkin(nlc_network *network, const double *overlap, const double *normal, nlc_outcome *outcome);
+
+/* close.c: whether somewhere the circles of two contacts with network->current overlap. */
+bool nlc_circles_overlap(const nlc_network *network, const double *overlap, const double *normal);
 
 /*
  * The force law.  No intermediate result exceeds the larger of stiffness and force.

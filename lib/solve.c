@@ -16,7 +16,8 @@ static nlc_status check(const nlc_network *n, const double *overlap, const doubl
     if ((*culprit = nlc_first_not_finite(nonlocal, n->contact_count)) >= 0) return NLC_ERROR_NONLOCAL;
     int e = nlc_exponent_above(nlc_largest_magnitude(overlap, n->contact_count)) + HEADROOM;
     if (e > 1000 || n->stiffness_exponent + e + (e > 0 ? e / 2 + 1 : 0) > 1000) return NLC_ERROR_RANGE;
-    return NLC_OK;
+    const int coupling = n->coupling_exponent + n->stiffness_exponent + (e > 0 ? e / 2 : 0);
+    return coupling > 900 ? NLC_ERROR_RANGE : NLC_OK;
 }
 
 /* Largest overlap on each particle, 0 at least. */
@@ -58,12 +59,22 @@ static bool all_zero(const double *values, int64_t count)
 static void iterate(nlc_network *n, const double *overlap, const double *normal, const double *nonlocal, nlc_outcome *out)
 {
     start_from(n, overlap, nonlocal);
+    if (n->settings.method != NLC_METHOD_FIXED_POINT) {
+        nlc_galerkin(n, overlap, normal, out);
+        return;
+    }
     nlc_fixed_point(n, overlap, normal, out);
-    if (out->status == NLC_WARNING_NOT_CONVERGED && out->sweeps < n->settings.max_sweeps &&
+    if (out->status == NLC_WARNING_NOT_CONVERGED && out->info.sweeps < n->settings.max_sweeps &&
         !all_zero(nonlocal, n->contact_count)) {
         start_from(n, overlap, 0); /* it may have been a bad start */
         nlc_fixed_point(n, overlap, normal, out);
     }
+}
+
+static void uncoupled(nlc_network *n, nlc_outcome *out)
+{
+    memset(n->current, 0, (size_t)n->contact_count * sizeof *n->current);
+    out->info.lambda_lower = out->info.lambda_upper = 0;
 }
 
 nlc_status nlc_solve(nlc_network *network, double *NLC_RESTRICT force, double *NLC_RESTRICT nonlocal,
@@ -78,24 +89,21 @@ nlc_status nlc_solve(nlc_network *network, double *NLC_RESTRICT force, double *N
     if (!nonlocal) return nlc_error(info, NLC_ERROR_NULL, 2);
     if (!overlap) return nlc_error(info, NLC_ERROR_NULL, 3);
     if (!normal) return nlc_error(info, NLC_ERROR_NULL, 4);
-    nlc_outcome out = {.status = NLC_OK, .culprit = -1, .worst_contact = -1};
-    out.status = check(network, overlap, normal, nonlocal, &out.culprit);
-    if (out.status != NLC_OK) return nlc_error(info, out.status, out.culprit);
+    nlc_outcome out = {NLC_OK, nlc_new_info()};
+    out.status = check(network, overlap, normal, nonlocal, &out.info.culprit);
+    if (out.status != NLC_OK) return nlc_error(info, out.status, out.info.culprit);
 
     if (network->settings.model->within)
         iterate(network, overlap, normal, nonlocal, &out);
     else
-        memset(network->current, 0, (size_t)count * sizeof *network->current);
-    if (out.status < 0) return nlc_error(info, out.status, out.culprit);
+        uncoupled(network, &out);
+    if (out.status < 0) return nlc_error(info, out.status, out.info.culprit);
+    if (network->settings.model->within && nlc_circles_overlap(network, overlap, normal)) out.status |= NLC_WARNING_CLOSE;
 
-    nlc_info record = nlc_new_info();
-    record.sweeps = out.sweeps;
-    record.residual = out.residual;
-    record.worst_contact = out.worst_contact;
     for (int64_t c = 0; c < count; c++) {
         nonlocal[c] = network->current[c];
         force[c] = nlc_law(network->stiffness[c], overlap[c] + nonlocal[c]);
-        record.active += force[c] > 0;
+        out.info.active += force[c] > 0;
     }
-    return nlc_report(info, &record, out.status);
+    return nlc_report(info, &out.info, out.status);
 }

@@ -2,6 +2,7 @@
 /* structs.c - the rule by which public structs of other versions are read and written. */
 #include "structs.h"
 
+#include <math.h>
 #include <string.h>
 
 #define END(type, field) (offsetof(type, field) + sizeof(((type *)0)->field))
@@ -54,7 +55,10 @@ nlc_info nlc_new_info(void)
     nlc_info record;
     memset(&record, 0, sizeof record);
     record.culprit = -1;
-    record.worst_contact = -1;
+    record.worst_contact = record.critical_particle = record.weakest_particle = -1;
+    record.lambda_lower = -INFINITY;
+    record.lambda_upper = INFINITY;
+    record.coupling = 1;
     return record;
 }
 

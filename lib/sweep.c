@@ -49,11 +49,10 @@ static void add(const nlc_block *b, nlc_network *n, const double *normal, int64_
     for (int d = 0; d < b->count; d++) n->side[side_at(n, normal, begin + d)] += b->displacement[d];
 }
 
-/* A particle's kernel. */
-static nlc_kernel kernel_of(const nlc_network *n, int64_t particle)
+nlc_kernel nlc_kernel_of(const nlc_network *n, int64_t particle)
 {
     nlc_kernel k = n->kernel[n->material[particle]];
-    for (int c = 0; c < NLC_KERNEL_SIZE; c++) k.c[c] *= n->scale[particle];
+    for (int c = 0; c < NLC_KERNEL_SIZE; c++) k.c[c] *= n->scale[particle] * n->unit;
     return k;
 }
 
@@ -91,7 +90,7 @@ static double largest_force(const nlc_network *n, const double *force, int64_t b
     return largest;
 }
 
-static bool displace_particle(nlc_network *n, const double *force, const double *normal, int64_t particle)
+bool nlc_displace_particle(nlc_network *n, const double *force, const double *normal, int64_t particle)
 {
     const nlc_model *model = n->settings.model;
     const int64_t begin = n->start[particle], end = n->start[particle + 1];
@@ -101,10 +100,10 @@ static bool displace_particle(nlc_network *n, const double *force, const double 
         for (int64_t p = begin; p < end; p++) n->side[n->entry[p]] = 0;
         largest = largest_force(n, force, begin, end);
     } else if (end - begin > NLC_BLOCK) {
-        const nlc_kernel kernel = kernel_of(n, particle);
+        const nlc_kernel kernel = nlc_kernel_of(n, particle);
         distinct = displace_in_blocks(n, force, normal, begin, end, &kernel, &largest);
     } else if (end > begin) {
-        const nlc_kernel kernel = kernel_of(n, particle);
+        const nlc_kernel kernel = nlc_kernel_of(n, particle);
         nlc_block a;
         largest = gather(&a, n, force, normal, begin, end);
         distinct = model->within(&a, &kernel);
@@ -150,7 +149,7 @@ static int closeness(const nlc_network *n, const double *normal)
 static bool in_range(const nlc_network *n, const double *force, const double *normal)
 {
     int e = nlc_exponent_above(nlc_largest_magnitude(force, n->contact_count)) + n->coupling_exponent +
-            nlc_exponent_above((double)n->contact_count) + 4;
+            nlc_exponent_above(n->unit) + nlc_exponent_above((double)n->contact_count) + 4;
     return e + 512 <= 1020 || e + closeness(n, normal) <= 1020;
 }
 
@@ -159,7 +158,7 @@ nlc_status nlc_displace(nlc_network *network, const double *force, const double 
     *culprit = -1;
     if (network->settings.model->within && !in_range(network, force, normal)) return NLC_ERROR_RANGE;
     for (int64_t k = 0; k < network->particle_count; k++)
-        if (!displace_particle(network, force, normal, k)) {
+        if (!nlc_displace_particle(network, force, normal, k)) {
             *culprit = find_coincident(network, normal, k);
             return NLC_ERROR_COINCIDENT;
         }
@@ -183,6 +182,7 @@ nlc_status nlc_sweep(nlc_network *network, double *NLC_RESTRICT displacement, co
     if ((culprit = nlc_first_not_finite(force, count)) >= 0) return nlc_error(info, NLC_ERROR_FORCE, culprit);
 
     nlc_info record = nlc_new_info();
+    network->unit = 1;
     nlc_status status = nlc_displace(network, force, normal, &record.culprit);
     if (status != NLC_OK) return nlc_report(info, &record, status);
     memcpy(displacement, network->side, 2 * (size_t)count * sizeof *displacement);

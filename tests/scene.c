@@ -157,6 +157,36 @@ void scene_crystal(scene *s, int n, double R, double young, double poisson, cons
             }
 }
 
+/* Number of the sphere at a lattice point, in half edges; -1 where there is none. */
+static int32_t lattice_point(lattice type, int n, int x, int y, int z)
+{
+    const int m = 2 * n, u = (x + m) % m, v = (y + m) % m, w = (z + m) % m, odd = u % 2 + v % 2 + w % 2;
+    const int32_t cell = (w / 2 * n + v / 2) * n + u / 2, cells = n * n * n;
+    if (type == SIMPLE_CUBIC) return odd == 0 ? cell : -1;
+    if (type == BODY_CENTRED) return odd == 0 ? cell : odd == 3 ? cell + cells : -1;
+    return odd == 0 ? cell : odd == 2 ? cell + cells * (u % 2 == 0 ? 1 : v % 2 == 0 ? 2 : 3) : -1;
+}
+
+void scene_lattice(scene *s, lattice type, int n, double young, double poisson, double eps, double noise, rng *g)
+{
+    const int(*direction)[3] = type == SIMPLE_CUBIC ? sc : type == BODY_CENTRED ? bcc : fcc;
+    const int count = type == SIMPLE_CUBIC ? 3 : type == BODY_CENTRED ? 7 : 6, basis = type == FACE_CENTRED ? 4 : type == BODY_CENTRED ? 2 : 1;
+    const double half = (type == SIMPLE_CUBIC ? 1 : type == BODY_CENTRED ? 2 / sqrt(3) : 2 / sqrt(2)) * (1 - eps);
+    const int32_t m = scene_material(s, young, poisson);
+    for (int k = 0; k < basis * n * n * n; k++) scene_particle(s, 1, m);
+    for (int z = 0; z < 2 * n; z++)
+        for (int y = 0; y < 2 * n; y++)
+            for (int x = 0; x < 2 * n; x++) {
+                const int32_t i = lattice_point(type, n, x, y, z);
+                for (int d = 0; i >= 0 && d < count; d++) {
+                    const int *v = direction[d];
+                    const double distance = half * sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+                    scene_contact(s, i, lattice_point(type, n, x + v[0], y + v[1], z + v[2]),
+                                  2 - distance + rng_uniform(g, -noise, noise), v[0], v[1], v[2]);
+                }
+            }
+}
+
 void scene_cluster(scene *s, rng *g, int count, double apart)
 {
     const int32_t soft = scene_material(s, 1e6, 0.3), hard = scene_material(s, 3e6, 0.45);
@@ -291,7 +321,7 @@ static term *all_terms(const scene *s, double factor, int64_t *count)
     return terms;
 }
 
-static long double stiffness(const scene *s, int64_t c)
+long double scene_stiffness(const scene *s, int64_t c)
 {
     long double compliance = 0, curvature = 0;
     for (int end = 0; end < 2; end++) {
@@ -301,6 +331,20 @@ static long double stiffness(const scene *s, int64_t c)
         if (k < s->particles) curvature += 1 / (long double)s->radius[k];
     }
     return 4 / (3 * compliance * sqrtl(curvature));
+}
+
+void scene_terms(const scene *s, int64_t *count, int64_t **c, int64_t **d, long double **w)
+{
+    term *terms = all_terms(s, 1, count);
+    *c = resized(0, *count, sizeof **c);
+    *d = resized(0, *count, sizeof **d);
+    *w = resized(0, *count, sizeof **w);
+    for (int64_t t = 0; t < *count; t++) {
+        (*c)[t] = terms[t].c;
+        (*d)[t] = terms[t].d;
+        (*w)[t] = terms[t].coefficient;
+    }
+    free(terms);
 }
 
 static long double law(long double k, long double x)
@@ -315,7 +359,7 @@ long double scene_oracle(const scene *s, double factor, long double *force)
     long double *g = resized(0, s->contacts, sizeof *g), *k = resized(0, s->contacts, sizeof *k);
     long double change = 1, largest = 0;
     for (int64_t c = 0; c < s->contacts; c++) {
-        k[c] = stiffness(s, c);
+        k[c] = scene_stiffness(s, c);
         force[c] = law(k[c], s->overlap[c]);
     }
     for (int sweep = 0; sweep < 5000 && change > 1e-18L; sweep++) {

@@ -49,6 +49,12 @@ void scene_cell(scene *s, lattice type, double R, double young, double poisson, 
 /* The same crystal of n x n x n cells with all its spheres (n >= 3); SIMPLE_CUBIC only. */
 void scene_crystal(scene *s, int n, double R, double young, double poisson, const double stretch[3]);
 
+/*
+ * A crystal of n x n x n cubic cells with all its spheres, compressed by eps in every direction, with second neighbours of
+ * BODY_CENTRED as candidates; every overlap is changed by up to noise R.  n >= 3.
+ */
+void scene_lattice(scene *s, lattice type, int n, double young, double poisson, double eps, double noise, rng *g);
+
 /* A central sphere with count others at random directions at least apart from each other [rad], and walls where asked. */
 void scene_cluster(scene *s, rng *g, int count, double apart);
 
@@ -61,6 +67,10 @@ void scene_packing(scene *s, const char *name, double reach);
  * the largest force.
  */
 long double scene_oracle(const scene *s, double factor, long double *force);
+
+/* The parts of it: displacement w force[d] at contact c, count of them in arrays to be freed; and [GC] 9. */
+void scene_terms(const scene *s, int64_t *count, int64_t **c, int64_t **d, long double **w);
+long double scene_stiffness(const scene *s, int64_t c);
 
 /* Largest |a - b| / largest force on either particle of the contact. */
 double scene_error(const scene *s, const double *force, const long double *exact);

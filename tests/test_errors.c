@@ -329,6 +329,75 @@ START_TEST(same_direction_and_range)
 }
 END_TEST
 
+static nlc_status energy(void)
+{
+    return nlc_energy(f.s.network, f.F, f.force, f.s.overlap, f.s.normal, &f.info);
+}
+
+static nlc_status tangent(void)
+{
+    return nlc_tangent(f.s.network, f.displacement, f.nonlocal, f.force, f.s.normal, &f.info);
+}
+
+static nlc_status inverse(void)
+{
+    return nlc_tangent_inverse(f.s.network, f.displacement, f.nonlocal, f.force, f.s.normal, &f.info);
+}
+
+static nlc_status bound(void)
+{
+    return nlc_tangent_bound(f.s.network, f.F, f.force, f.s.normal, &f.info);
+}
+
+START_TEST(energy_and_tangent)
+{
+    keep();
+    demand(nlc_energy(0, f.F, f.force, f.s.overlap, f.s.normal, &f.info), NLC_ERROR_NULL, 0);
+    demand(nlc_energy(f.s.network, 0, f.force, f.s.overlap, f.s.normal, &f.info), NLC_ERROR_NULL, 1);
+    demand(nlc_energy(f.s.network, f.F, 0, f.s.overlap, f.s.normal, &f.info), NLC_ERROR_NULL, 2);
+    demand(nlc_energy(f.s.network, f.F, f.force, 0, f.s.normal, &f.info), NLC_ERROR_NULL, 3);
+    demand(nlc_energy(f.s.network, f.F, f.force, f.s.overlap, 0, &f.info), NLC_ERROR_NULL, 4);
+    demand(nlc_tangent(0, f.displacement, f.nonlocal, f.force, f.s.normal, &f.info), NLC_ERROR_NULL, 0);
+    demand(nlc_tangent(f.s.network, 0, f.nonlocal, f.force, f.s.normal, &f.info), NLC_ERROR_NULL, 1);
+    demand(nlc_tangent(f.s.network, f.displacement, 0, f.force, f.s.normal, &f.info), NLC_ERROR_NULL, 2);
+    demand(nlc_tangent(f.s.network, f.displacement, f.nonlocal, 0, f.s.normal, &f.info), NLC_ERROR_NULL, 3);
+    demand(nlc_tangent(f.s.network, f.displacement, f.nonlocal, f.force, 0, &f.info), NLC_ERROR_NULL, 4);
+    demand(nlc_tangent_inverse(0, f.displacement, f.nonlocal, f.force, f.s.normal, &f.info), NLC_ERROR_NULL, 0);
+    demand(nlc_tangent_inverse(f.s.network, 0, f.nonlocal, f.force, f.s.normal, &f.info), NLC_ERROR_NULL, 1);
+    demand(nlc_tangent_inverse(f.s.network, f.displacement, 0, f.force, f.s.normal, &f.info), NLC_ERROR_NULL, 2);
+    demand(nlc_tangent_inverse(f.s.network, f.displacement, f.nonlocal, 0, f.s.normal, &f.info), NLC_ERROR_NULL, 3);
+    demand(nlc_tangent_inverse(f.s.network, f.displacement, f.nonlocal, f.force, 0, &f.info), NLC_ERROR_NULL, 4);
+    demand(nlc_tangent_bound(0, f.F, f.force, f.s.normal, &f.info), NLC_ERROR_NULL, 0);
+    demand(nlc_tangent_bound(f.s.network, 0, f.force, f.s.normal, &f.info), NLC_ERROR_NULL, 1);
+    demand(nlc_tangent_bound(f.s.network, f.F, 0, f.s.normal, &f.info), NLC_ERROR_NULL, 2);
+    demand(nlc_tangent_bound(f.s.network, f.F, f.force, 0, &f.info), NLC_ERROR_NULL, 3);
+    const double bad[] = {NAN, INFINITY, -1};
+    for (int b = 0; b < 3; b++) {
+        WITH_WORK(f.force[3], bad[b], energy(), NLC_ERROR_FORCE, 3);
+        WITH_WORK(f.force[3], bad[b], tangent(), NLC_ERROR_FORCE, 3);
+        WITH_WORK(f.force[3], bad[b], inverse(), NLC_ERROR_FORCE, 3);
+        WITH_WORK(f.force[3], bad[b], bound(), NLC_ERROR_FORCE, 3);
+        WITH_WORK(f.s.normal[9], 3 + bad[b], energy(), NLC_ERROR_NORMAL, 3);
+        WITH_WORK(f.s.normal[9], 3 + bad[b], tangent(), NLC_ERROR_NORMAL, 3);
+        WITH_WORK(f.s.normal[9], 3 + bad[b], inverse(), NLC_ERROR_NORMAL, 3);
+        WITH_WORK(f.s.normal[9], 3 + bad[b], bound(), NLC_ERROR_NORMAL, 3);
+    }
+    WITH_WORK(f.s.overlap[1], NAN, energy(), NLC_ERROR_OVERLAP, 1);
+    WITH_WORK(f.nonlocal[1], NAN, tangent(), NLC_ERROR_OVERLAP, 1);
+    WITH_WORK(f.nonlocal[1], NAN, inverse(), NLC_ERROR_FORCE, 1);
+    WITH_WORK(f.force[1], 1.7e308, energy(), NLC_ERROR_RANGE, -1);
+    f.nonlocal[1] = 1e306;
+    keep();
+    demand(tangent(), NLC_ERROR_RANGE, -1);
+    /* forces far beyond the fold: 1e6 Pa and 1 m cannot be stable at 1e12 N */
+    f.nonlocal[1] = 1;
+    for (int c = 0; c < 5; c++) f.force[c] = 1e12;
+    keep();
+    demand(tangent(), NLC_ERROR_UNSTABLE, -1);
+    demand(bound(), NLC_ERROR_UNSTABLE, -1);
+}
+END_TEST
+
 /* Must be the last test: every error of the list has been caused by one before. */
 START_TEST(every_error_was_met)
 {
@@ -352,6 +421,12 @@ START_TEST(empty_networks)
     ck_assert_int_eq(nlc_sweep(network, 0, 0, 0, 0, 0), NLC_OK);
     ck_assert_int_eq(nlc_assemble(network, 0, 0, 0, 0, 0, 0), NLC_OK);
     ck_assert_int_eq(nlc_set_options(network, 0, 0), NLC_OK);
+    double e = 77;
+    ck_assert_int_eq(nlc_energy(network, &e, 0, 0, 0, 0), NLC_OK);
+    nlc_assert_same(e, 0);
+    ck_assert_int_eq(nlc_tangent(network, 0, 0, 0, 0, 0), NLC_OK);
+    ck_assert_int_eq(nlc_tangent_inverse(network, 0, 0, 0, 0, 0), NLC_OK);
+    ck_assert_int_eq(nlc_tangent_bound(network, 0, 0, 0, 0), NLC_OK);
     free(memory);
 }
 END_TEST
@@ -368,6 +443,7 @@ int main(void)
     tcase_add_test(t, struct_sizes);
     tcase_add_test(t, arrays_over_contacts);
     tcase_add_test(t, same_direction_and_range);
+    tcase_add_test(t, energy_and_tangent);
     tcase_add_test(t, empty_networks);
     tcase_add_test(t, every_error_was_met);
     suite_add_tcase(suite, t);

@@ -55,13 +55,21 @@ AT(nlc_options, reserved, 44);
 AT(nlc_options, stiffness, 48);
 
 #define I(field) OF(nlc_info, field)
-SIZE(nlc_info, 48, I(struct_size) + I(culprit) + I(sweeps) + I(residual) + I(worst_contact) + I(active));
+SIZE(nlc_info, 104, I(struct_size) + I(culprit) + I(sweeps) + I(residual) + I(worst_contact) + I(active) +
+     I(lambda_lower) + I(lambda_upper) + I(critical_particle) + I(coupling) + I(weakest_particle) + I(weakened) + I(blocks));
 AT(nlc_info, struct_size, 0);
 AT(nlc_info, culprit, 8);
 AT(nlc_info, sweeps, 16);
 AT(nlc_info, residual, 24);
 AT(nlc_info, worst_contact, 32);
 AT(nlc_info, active, 40);
+AT(nlc_info, lambda_lower, 48);
+AT(nlc_info, lambda_upper, 56);
+AT(nlc_info, critical_particle, 64);
+AT(nlc_info, coupling, 72);
+AT(nlc_info, weakest_particle, 80);
+AT(nlc_info, weakened, 88);
+AT(nlc_info, blocks, 96);
 #endif
 
 VALUE(sizeof(nlc_status), 4);
@@ -78,8 +86,11 @@ VALUE(NLC_SIMD_GENERIC, 1);
 VALUE(NLC_OK, 0);
 VALUE(NLC_ERROR_NULL, -1);
 VALUE(NLC_ERROR_RANGE, -28);
-VALUE(NLC_WARNING_ROUNDING, 1);
-VALUE(NLC_WARNING_NOT_CONVERGED, 2);
+VALUE(NLC_ERROR_UNSTABLE, -29);
+VALUE(NLC_WARNING_CLOSE, 1);
+VALUE(NLC_WARNING_ROUNDING, 2);
+VALUE(NLC_WARNING_WEAKENED, 4);
+VALUE(NLC_WARNING_NOT_CONVERGED, 8);
 EOF
 
 # Every struct of the header must be recorded above.

@@ -359,6 +359,7 @@ END_TEST
 /* Past the end of the stable branch: a warning, and finite forces that belong to the displacements handed over. */
 START_TEST(no_solution_is_survived)
 {
+    const int32_t method = _i ? NLC_METHOD_FIXED_POINT : NLC_METHOD_AUTOMATIC;
     for (double eps = 0.2; eps < 1e6; eps *= 3) {
         scene s;
         scene_init(&s);
@@ -366,13 +367,15 @@ START_TEST(no_solution_is_survived)
         for (int c = 0; c < 3; c++) s.overlap[c] = 2 * eps;
         memcpy(s.normal, (const double[]){1, 0, 0, 0, 1, 0, 0, 0, 1}, sizeof(double[9]));
         nlc_info info;
-        ck_assert_int_eq(scene_solve(&s, &info), NLC_WARNING_NOT_CONVERGED);
+        s.options.method = method;
+        /* neighbours' circles overlap, too, at such strains */
+        ck_assert_int_eq(scene_solve(&s, &info), NLC_WARNING_CLOSE | (_i ? NLC_WARNING_NOT_CONVERGED : NLC_WARNING_WEAKENED));
         const double k = nlc_hertz_stiffness(1, 0.46, 1, 1, 0.46, 1);
         for (int64_t c = 0; c < s.contacts; c++) {
             ck_assert(isfinite(s.force[c]) && isfinite(s.nonlocal[c]));
             nlc_assert_rel(s.force[c], nlc_hertz_force(k, s.overlap[c] + s.nonlocal[c]), 1e-15);
         }
-        ck_assert(info.residual > 1e-8);
+        ck_assert(_i ? info.residual > 1e-8 : info.residual <= 1e-8 && info.coupling < 1 && info.weakened == 1);
         scene_free(&s);
     }
 }
@@ -463,7 +466,7 @@ int main(void)
     tcase_add_test(t, strided_particles);
     tcase_add_test(t, start_does_not_matter);
     tcase_add_test(t, options_can_be_exchanged);
-    tcase_add_test(t, no_solution_is_survived);
+    tcase_add_loop_test(t, no_solution_is_survived, 0, 2);
     tcase_add_test(t, too_few_sweeps_are_said);
     tcase_add_test(t, unreachable_tolerance_is_said);
     tcase_add_test(t, gaps_and_extreme_overlaps);

@@ -15,12 +15,14 @@ mandoc -Tlint -Wall ./*.3 || fail "mandoc has complaints"
 # Comments over a function in the header and running text in a page are both searched in $text.
 facts='
 function tell(fact) { print name, fact }
-function tell_of_text(    n, w, k) {
+function tell_of_text(    n, w, k, kind) {
     n = split(text, w, /[^A-Za-z0-9_.]+/)
     for (k = 2; k <= n; k++) if (w[k] ~ /^ulp\.?$/ && w[k-1] ~ /^[0-9.]+$/) tell(w[k-1] " ulp")
     n = split(text, w, /[^A-Za-z0-9_]+/)
-    for (k = 1; k <= n; k++) if (w[k] ~ /^NLC_(ERROR|WARNING)_[A-Z_]+$/) tell(w[k])
-    else if (w[k] ~ /^_[A-Z_]+$/) tell("NLC_ERROR" w[k])
+    for (k = 1; k <= n; k++) if (w[k] ~ /^NLC_(ERROR|WARNING)_[A-Z_]+$/) {
+        tell(w[k])
+        kind = w[k] ~ /ERROR/ ? "NLC_ERROR" : "NLC_WARNING" # of the short names that follow
+    } else if (w[k] ~ /^_[A-Z_]+$/) tell(kind w[k])
 }
 function tell_prototype(p) {
     gsub(/[ \t]+/, " ", p); gsub(/\* /, "*", p); gsub(/NLC_API /, "", p); gsub(/NLC_RESTRICT/, "restrict", p)

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * block.h - one particle's block of W^1/2 C W^1/2, W = D / share, over its contacts with D > 0.
+ *
+ * The two sides of a contact of a particle with itself are one row, with W = D: their shares add to 1.
+ */
+#ifndef NLC_BLOCK_H
+#define NLC_BLOCK_H
+
+#include "network.h"
+
+/* An upper bound of its largest eigenvalue: the Frobenius norm times ((m-1)/m)^1/2, since without diagonal the trace is 0. */
+double nlc_block_norm(const nlc_network *network, const double *normal, int64_t particle);
+
+/* Whether its largest eigenvalue is at most beta. */
+bool nlc_block_is_below(nlc_network *network, const double *normal, int64_t particle, double beta);
+
+/*
+ * Its largest eigenvalue, to rounding from above.  With more than NLC_BLOCK contacts it is estimated by Lanczos' method as
+ * Ritz value plus residual: too small only if the start is orthogonal to the largest eigenvector.  Uses network->side there.
+ */
+double nlc_block_eigenvalue(nlc_network *network, const double *normal, int64_t particle);
+
+#endif

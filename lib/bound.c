@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* bound.c - an upper bound of the largest eigenvalue, particle by particle. */
+#include "bound.h"
+
+#include "block.h"
+
+/* No side gets less: a share near zero would make its particle's block huge. */
+#define SHARE_MIN 0.05
+
+/* Shares by what the sides yield to a unit force; the whole of it where the other side does not yield at all. */
+static void first_shares(nlc_network *n)
+{
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        const int64_t i = n->i[c], j = n->j[c];
+        const double a = i < n->particle_count ? n->scale[i] : 0, b = j < n->particle_count ? n->scale[j] : 0;
+        double s = 1;
+        if (a <= 0) s = 0;
+        else if (b > 0) s = a > b ? 1 / (1 + b / a) : a / b / (1 + a / b);
+        if (a > 0 && b > 0) s = s < SHARE_MIN ? SHARE_MIN : s > 1 - SHARE_MIN ? 1 - SHARE_MIN : s;
+        n->share[2 * c] = s;
+        n->share[2 * c + 1] = 1 - s;
+    }
+}
+
+static bool couples(const nlc_network *n, int64_t particle)
+{
+    return n->scale[particle] > 0 && n->start[particle + 1] > n->start[particle];
+}
+
+bool nlc_bound_below(nlc_network *n, const double *normal, double beta, nlc_bound *result)
+{
+    first_shares(n);
+    for (int64_t k = 0; k < n->particle_count; k++) {
+        if (!couples(n, k)) continue;
+        result->blocks++;
+        if (nlc_block_norm(n, normal, k) <= beta) continue;
+        result->blocks++;
+        if (nlc_block_is_below(n, normal, k, beta)) continue;
+        result->where = k;
+        return false;
+    }
+    result->upper = beta;
+    return true;
+}
+
+/* Moves the shares of all contacts towards equal b_k; marks the particles whose block has changed and by how much it grew. */
+static void move_shares(nlc_network *n)
+{
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        const int64_t i = n->i[c], j = n->j[c];
+        const double old = n->share[2 * c];
+        if (i == j || n->slope[c] <= 0 || old <= 0 || old >= 1) continue;
+        const double a = old * n->bound[i] * n->bound[i], b = (1 - old) * n->bound[j] * n->bound[j];
+        double s = a / (a + b);
+        s = s < SHARE_MIN ? SHARE_MIN : s > 1 - SHARE_MIN ? 1 - SHARE_MIN : s;
+        if (fabs(s - old) <= 1e-15) continue;
+        const double grow_i = old / s, grow_j = (1 - old) / (1 - s);
+        n->growth[i] = grow_i > n->growth[i] ? grow_i : n->growth[i];
+        n->growth[j] = grow_j > n->growth[j] ? grow_j : n->growth[j];
+        n->share[2 * c] = s;
+        n->share[2 * c + 1] = 1 - s;
+        n->changed[i] = n->changed[j] = 1;
+    }
+}
+
+/* b of one particle: exact where a cheap bound, the norm of the block, exceeds the floor. */
+static double bound_of(nlc_network *n, const double *normal, int64_t k, nlc_bound *result)
+{
+    if (!couples(n, k)) return NLC_BOUND_FLOOR;
+    if (n->norm[k] < 0) {
+        n->norm[k] = nlc_block_norm(n, normal, k);
+        result->blocks++;
+    } else {
+        n->norm[k] *= n->growth[k]; /* D / share grew by no more */
+    }
+    if (n->norm[k] <= NLC_BOUND_FLOOR) return NLC_BOUND_FLOOR;
+    result->blocks++;
+    const double b = nlc_block_eigenvalue(n, normal, k);
+    return b > NLC_BOUND_FLOOR ? b : NLC_BOUND_FLOOR;
+}
+
+void nlc_bound_balance(nlc_network *n, const double *normal, int passes, double enough, nlc_bound *result)
+{
+    first_shares(n);
+    for (int64_t k = 0; k < n->particle_count; k++) {
+        n->changed[k] = 1;
+        n->norm[k] = -1;
+        n->growth[k] = 1;
+    }
+    for (int pass = 0;; pass++) {
+        result->upper = 0;
+        for (int64_t k = 0; k < n->particle_count; k++) {
+            if (n->changed[k]) n->bound[k] = bound_of(n, normal, k, result);
+            n->changed[k] = 0;
+            n->growth[k] = 1;
+            if (n->bound[k] <= result->upper) continue;
+            result->upper = n->bound[k];
+            result->where = k;
+        }
+        if (result->upper <= enough || pass == passes) return;
+        move_shares(n);
+    }
+}
+
+void nlc_bound_particles(nlc_network *n, const double *normal, nlc_bound *result)
+{
+    first_shares(n);
+    result->upper = 0;
+    for (int64_t k = 0; k < n->particle_count; k++) {
+        n->bound[k] = 0;
+        if (!couples(n, k)) continue;
+        result->blocks++;
+        const double norm = nlc_block_norm(n, normal, k);
+        n->bound[k] = norm > NLC_BOUND_FLOOR ? nlc_block_eigenvalue(n, normal, k) : norm;
+        result->blocks += norm > NLC_BOUND_FLOOR;
+        if (n->bound[k] < 0) n->bound[k] = 0;
+        if (n->bound[k] <= result->upper) continue;
+        result->upper = n->bound[k];
+        result->where = k;
+    }
+    if (result->upper >= 1) nlc_bound_balance(n, normal, 16, 1 - 1e-6, result);
+}

@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* close.c - circles of contact that overlap each other: point forces are no model of these. */
+#include "network.h"
+
+/* Radius of a contact's circle, a^2 = R_eff x with 1/R_eff = 1/R_i + 1/R_j ([GC] 7 and 8), in units of the particle's R. */
+static double radius_of(const nlc_network *n, int64_t c, int64_t particle, const double *overlap)
+{
+    const int64_t i = n->i[c], j = n->j[c];
+    const double x = overlap[c] + n->current[c], R = n->radius[particle];
+    double curvature = 0;
+    if (i < n->particle_count) curvature += R / n->radius[i];
+    if (j < n->particle_count) curvature += R / n->radius[j];
+    return x > 0 ? sqrt(x / R / curvature) : 0;
+}
+
+/* By how much the square of a + b exceeds that of the distance, summed over the pairs where it does.  v + |v| is no choice. */
+static double excess(const nlc_block *a, const nlc_block *b, int c, int count)
+{
+    double sum[NLC_BLOCK], total = 0;
+    for (int d = 0; d < count; d++) {
+        const double x = a->x[c] - b->x[d], y = a->y[c] - b->y[d], z = a->z[c] - b->z[d], r = a->force[c] + b->force[d];
+        const double v = r * r - (x * x + y * y + z * z);
+        sum[d] = v + fabs(v);
+    }
+    /* a circle of no size is no contact */
+    for (int d = 0; d < count; d++) total += b->force[d] > 0 ? sum[d] : 0;
+    return a->force[c] > 0 ? total : 0;
+}
+
+/* The force of this block is the radius. */
+static void gather_circles(nlc_block *b, const nlc_network *n, const double *overlap, const double *normal, int64_t particle,
+                           int64_t begin, int64_t end)
+{
+    b->count = (int)(end - begin);
+    for (int d = 0; d < b->count; d++) {
+        const int64_t e = n->entry[begin + d];
+        const double out = nlc_outward(e), *v = normal + 3 * (e >> 1);
+        b->x[d] = out * v[0];
+        b->y[d] = out * v[1];
+        b->z[d] = out * v[2];
+        b->force[d] = radius_of(n, e >> 1, particle, overlap);
+    }
+}
+
+static bool overlap_on(const nlc_network *n, int64_t k, const double *overlap, const double *normal)
+{
+    const int64_t end = n->start[k + 1];
+    nlc_block a, b;
+    for (int64_t p = n->start[k]; p < end; p += NLC_BLOCK) {
+        const int64_t p_end = end - p > NLC_BLOCK ? p + NLC_BLOCK : end;
+        gather_circles(&a, n, overlap, normal, k, p, p_end);
+        for (int c = 1; c < a.count; c++)
+            if (excess(&a, &a, c, c) > 0) return true;
+        for (int64_t q = p_end; q < end; q += NLC_BLOCK) {
+            gather_circles(&b, n, overlap, normal, k, q, end - q > NLC_BLOCK ? q + NLC_BLOCK : end);
+            for (int c = 0; c < a.count; c++)
+                if (excess(&a, &b, c, b.count) > 0) return true;
+        }
+    }
+    return false;
+}
+
+bool nlc_circles_overlap(const nlc_network *n, const double *overlap, const double *normal)
+{
+    for (int64_t k = 0; k < n->particle_count; k++)
+        if (n->scale[k] > 0 && overlap_on(n, k, overlap, normal)) return true;
+    return false;
+}

@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * directions.c - the vectors of the solver.
+ *
+ * All passes go over chunks that stay in the cache, and sums are taken in four lanes and chunk by chunk: always in the same
+ * order, and in one that compilers make vectors of.
+ */
+#include "iteration.h"
+
+#define CHUNK 256
+#define CLAMP 0.005 /* 1 - theta is taken for no less: a step along a nearly critical direction stays finite */
+
+static double dot(const double *a, const double *b, int count)
+{
+    double s[4] = {0, 0, 0, 0};
+    int c = 0;
+    for (; c + 3 < count; c += 4)
+        for (int l = 0; l < 4; l++) s[l] += a[c + l] * b[c + l];
+    for (; c < count; c++) s[0] += a[c] * b[c];
+    return (s[0] + s[1]) + (s[2] + s[3]);
+}
+
+static double largest_of(const double *a, int count)
+{
+    double m[4] = {0, 0, 0, 0};
+    int c = 0;
+    for (; c + 3 < count; c += 4)
+        for (int l = 0; l < 4; l++) m[l] = a[c + l] > m[l] ? a[c + l] : m[l];
+    for (; c < count; c++) m[0] = a[c] > m[0] ? a[c] : m[0];
+    m[0] = m[0] > m[1] ? m[0] : m[1];
+    m[2] = m[2] > m[3] ? m[2] : m[3];
+    return m[0] > m[2] ? m[0] : m[2];
+}
+
+/*
+ * Residuals z, and slopes of the chord from the iterate to the force of the law, D = (Ph - P) / (y - (P/k)^(2/3)).  With
+ * s = y^(1/2) and r = (P/k)^(1/3) that is k (s^2 + s r + r^2) / (s + r), without cancellation.  One Halley step from s finds
+ * r = s (Ph + 2 P) / (2 Ph + P) where the two are close (and the fractions are put on one line: a division costs most here);
+ * elsewhere a cube root is taken.
+ */
+static void residuals(const nlc_iteration *q, int64_t from, int count, double *z, double *slope, double *force)
+{
+    const double *iterate = q->n->force + from;
+    int far = 0;
+    for (int c = 0; c < count; c++) {
+        const double k = nlc_scaled_stiffness(q, from + c), y = nlc_scaled_overlap(q, from + c);
+        const double s = sqrt(0.5 * (y + fabs(y))), h = k * s * s * s, p = 0.5 * (iterate[c] + fabs(iterate[c]));
+        const double a = s * (h + 2 * p), b = 2 * h + p, sb = s * b;
+        force[c] = h;
+        z[c] = h - iterate[c];
+        slope[c] = k * (sb * sb + sb * a + a * a) / ((sb + a) * b + 1e-300);
+    }
+    for (int c = 0; c < count; c++) far += iterate[c] < 0 || iterate[c] > 8 * force[c];
+    for (int c = 0; c < count && far > 0; c++) {
+        if (iterate[c] >= 0 && iterate[c] <= 8 * force[c]) continue;
+        const double k = nlc_scaled_stiffness(q, from + c), y = nlc_scaled_overlap(q, from + c);
+        const double s = sqrt(0.5 * (y + fabs(y))), r = iterate[c] < 0 ? 0 : cbrt(iterate[c] / k);
+        slope[c] = iterate[c] < 0 ? 0 : k * (s * s + s * r + r * r) / (s + r + 1e-300);
+    }
+}
+
+static void evaluate_chunk(nlc_iteration *q, int64_t from, int count)
+{
+    nlc_network *n = q->n;
+    double *z = n->direction[0] + from, inverse[CHUNK], slope[CHUNK], force[CHUNK], scaled[CHUNK];
+    residuals(q, from, count, z, slope, force);
+    for (int c = 0; c < count; c++) {
+        const double floor = n->floor[from + c];
+        inverse[c] = 1 / (slope[c] > floor ? slope[c] : floor);
+        scaled[c] = fabs(z[c]);
+    }
+    const double largest = largest_of(scaled, count), top = largest_of(force, count);
+    q->largest_residual = largest > q->largest_residual ? largest : q->largest_residual;
+    q->largest_force = top > q->largest_force ? top : q->largest_force;
+    for (int a = 0; a < q->directions; a++) {
+        for (int c = 0; c < count; c++) scaled[c] = n->direction[a][from + c] * inverse[c];
+        for (int b = 0; b <= a; b++) q->M[a][b] += dot(scaled, n->direction[b] + from, count);
+    }
+}
+
+static int chunk_at(const nlc_iteration *q, int64_t from)
+{
+    return q->n->contact_count - from < CHUNK ? (int)(q->n->contact_count - from) : CHUNK;
+}
+
+#define EACH_CHUNK(from) for (int64_t from = 0; from < q->n->contact_count; from += CHUNK)
+
+static void clear(nlc_small A)
+{
+    for (int a = 0; a < NLC_DIRECTIONS; a++)
+        for (int b = 0; b < NLC_DIRECTIONS; b++) A[a][b] = 0;
+}
+
+static void mirror(nlc_small A)
+{
+    for (int a = 0; a < NLC_DIRECTIONS; a++)
+        for (int b = 0; b < a; b++) A[b][a] = A[a][b];
+}
+
+void nlc_evaluate(nlc_iteration *q)
+{
+    q->largest_residual = q->largest_force = 0;
+    clear(q->M);
+    EACH_CHUNK(from) evaluate_chunk(q, from, chunk_at(q, from));
+    mirror(q->M);
+}
+
+void nlc_stiffness_products(nlc_iteration *q)
+{
+    double **w = q->n->direction, **cw = q->n->image;
+    clear(q->K);
+    EACH_CHUNK(from)
+    for (int a = 0; a < q->directions; a++)
+        for (int b = 0; b <= a; b++) /* the image of the residual is fresh: it serves its whole row */
+            q->K[a][b] += dot(cw[b > 0 ? a : 0] + from, w[b > 0 ? b : a] + from, chunk_at(q, from));
+    mirror(q->K);
+}
+
+void nlc_choose_step(nlc_iteration *q)
+{
+    nlc_small Y;
+    double theta[NLC_DIRECTIONS];
+    const int n = q->directions, pairs = nlc_ritz(n, q->M, q->K, Y, theta);
+    int first = -1, second = -1;
+    for (int i = 0; i < n; i++) q->step[i] = q->ritz[0][i] = q->ritz[1][i] = 0;
+    for (int r = 0; r < pairs; r++) {
+        double along = 0, left = 1 - theta[r];
+        for (int i = 0; i < n; i++) along += Y[i][r] * q->M[i][0];
+        along /= left > CLAMP ? left : CLAMP;
+        for (int i = 0; i < n; i++) q->step[i] += along * Y[i][r];
+        if (first < 0 || theta[r] > theta[first]) {
+            second = first;
+            first = r;
+        } else if (second < 0 || theta[r] > theta[second]) {
+            second = r;
+        }
+    }
+    q->theta = first < 0 ? 0 : theta[first];
+    for (int i = 0; i < n; i++) {
+        if (first >= 0) q->ritz[0][i] = Y[i][first];
+        if (second >= 0) q->ritz[1][i] = Y[i][second];
+    }
+}
+
+/* out = sum over the directions of a factor times it */
+static void combine(double *out, double *const *direction, const double *factor, int directions, int64_t from, int count)
+{
+    for (int c = 0; c < count; c++) out[c] = factor[0] * direction[0][from + c];
+    for (int d = 1; d < directions; d++)
+        for (int c = 0; c < count; c++) out[c] += factor[d] * direction[d][from + c];
+}
+
+/* The step into total, and into the place of the directions that it was made of. */
+static void step_chunk(const nlc_iteration *q, double *const *w, double *total, bool all, int64_t from, int count)
+{
+    double step[CHUNK], ritz[2][CHUNK];
+    combine(step, w, q->step, q->directions, from, count);
+    for (int r = 0; r < 2 && all; r++) combine(ritz[r], w, q->ritz[r], q->directions, from, count);
+    for (int c = 0; c < count; c++) {
+        total[from + c] += step[c];
+        if (all) {
+            w[2][from + c] = q->directions > 1 ? w[1][from + c] : 0;
+            w[3][from + c] = ritz[0][c];
+            w[4][from + c] = ritz[1][c];
+        }
+        w[1][from + c] = step[c];
+    }
+}
+
+void nlc_take_step(nlc_iteration *q, bool all)
+{
+    EACH_CHUNK(from)
+    {
+        step_chunk(q, q->n->direction, q->n->force, all, from, chunk_at(q, from));
+        step_chunk(q, q->n->image, q->n->current, all, from, chunk_at(q, from));
+    }
+    q->directions = all ? NLC_DIRECTIONS : 2;
+}

@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * iteration.h - the coupled equations as an iteration sees them: in units in which overlaps, forces and the product of
+ * stiffness and coupling are about 1.  The units are powers of 2, so that they change no bit.
+ */
+#ifndef NLC_ITERATION_H
+#define NLC_ITERATION_H
+
+#include "network.h"
+
+typedef struct nlc_iteration {
+    nlc_network *n;
+    const double *overlap, *normal;
+    double per_overlap, per_stiffness; /* 1 / unit */
+    double largest_residual;           /* |z|, over all contacts */
+    double largest_force;
+    int directions; /* how many are in use; direction[0] is the residual */
+    nlc_small M, K; /* W^T D^-1 W and W^T C W of the directions W */
+    double step[NLC_DIRECTIONS], ritz[2][NLC_DIRECTIONS];
+    double theta; /* largest Ritz value of the last step: at most lambda */
+} nlc_iteration;
+
+static inline double nlc_scaled_stiffness(const nlc_iteration *q, int64_t c)
+{
+    const double k = q->n->stiffness[c] * q->per_stiffness;
+    return k > 1e-150 ? k : 1e-150; /* softer ones carry nothing, and may be divided by */
+}
+
+/* Overlap plus displacement, and the force of it. */
+static inline double nlc_scaled_overlap(const nlc_iteration *q, int64_t c)
+{
+    return q->overlap[c] * q->per_overlap + q->n->current[c];
+}
+
+static inline double nlc_scaled_force(const nlc_iteration *q, int64_t c)
+{
+    return nlc_law(nlc_scaled_stiffness(q, c), nlc_scaled_overlap(q, c));
+}
+
+/* units.c: sets the units, the start (network->force from network->current, which it scales) and the floor of the slopes. */
+void nlc_iteration_start(nlc_iteration *q, nlc_network *network, const double *overlap, const double *normal);
+/* Back to the caller's units. */
+void nlc_iteration_end(nlc_iteration *q);
+
+/* directions.c: residual z of [GC] 10 into direction[0], its largest, and M. */
+void nlc_evaluate(nlc_iteration *q);
+/* K from the images, C times the directions. */
+void nlc_stiffness_products(nlc_iteration *q);
+/* The step that makes the residual vanish in the space of the directions. */
+void nlc_choose_step(nlc_iteration *q);
+/* Takes it; keeps the last step, or (all) the last two and two Ritz vectors, as directions. */
+void nlc_take_step(nlc_iteration *q, bool all);
+
+/* scales.c: largest force on every body into network->largest: of the law, or the larger of it and the iterate. */
+void nlc_force_scales(nlc_iteration *q, bool iterate_too);
+/* Largest |value| over the scale of its contact; *where it is. */
+double nlc_relative_size(const nlc_iteration *q, const double *values, int64_t *where);
+/* The residual in the local energy norm, relative to the scales; it sees what the largest component does not, see there. */
+double nlc_energy_residual(nlc_iteration *q);
+
+/* weaken.c: the solution with weakened coupling, from the present iterate. */
+void nlc_weaken(nlc_iteration *q, nlc_outcome *outcome);
+
+/* The bound of lambda up to which a state counts as stable is 1 - this. */
+#define NLC_MARGIN 0.015
+#define NLC_BALANCE_PASSES 16
+
+#endif

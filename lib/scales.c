@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* scales.c - errors relative to the largest force nearby. */
+#include "iteration.h"
+
+/* Part of the residual's energy norm by which the error is at least estimated: see nlc_energy_residual. */
+#define ENERGY 0.33
+
+void nlc_force_scales(nlc_iteration *q, bool iterate_too)
+{
+    nlc_network *n = q->n;
+    for (int64_t k = 0; k < n->body_count; k++) n->largest[k] = 0;
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        double p = nlc_scaled_force(q, c);
+        if (iterate_too && n->force[c] > p) p = n->force[c];
+        const int64_t i = n->i[c], j = n->j[c];
+        if (i < n->particle_count && p > n->largest[i]) n->largest[i] = p;
+        if (j < n->particle_count && p > n->largest[j]) n->largest[j] = p;
+    }
+}
+
+double nlc_relative_size(const nlc_iteration *q, const double *values, int64_t *where)
+{
+    const nlc_network *n = q->n;
+    double worst = 0;
+    *where = -1;
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        const double a = n->largest[n->i[c]], b = n->largest[n->j[c]], scale = a > b ? a : b, size = fabs(values[c]);
+        if (size <= worst * scale) continue;
+        worst = scale > 1e-290 && size < 1e10 * scale ? size / scale : 1e10;
+        *where = c;
+    }
+    return worst;
+}
+
+/*
+ * Where slopes on a particle differ strongly (two contacts next to each other, one nearly open) the error can be many times
+ * the largest residual over 1 - lambda.  (max D sum z^2 / D)^1/2 over the particle sees that.
+ */
+double nlc_energy_residual(nlc_iteration *q)
+{
+    nlc_network *n = q->n;
+    double worst = 0, *sum = n->norm, *top = n->growth;
+    for (int64_t k = 0; k < n->particle_count; k++) sum[k] = top[k] = 0;
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        const double y = nlc_scaled_overlap(q, c), z = n->direction[0][c];
+        double slope = 1.5 * nlc_scaled_stiffness(q, c) * sqrt(0.5 * (y + fabs(y)));
+        slope = slope > n->floor[c] ? slope : n->floor[c];
+        const int64_t end[2] = {n->i[c], n->j[c]};
+        for (int side = 0; side < 2; side++) {
+            if (end[side] >= n->particle_count) continue;
+            sum[end[side]] += z * z / slope;
+            if (slope > top[end[side]]) top[end[side]] = slope;
+        }
+    }
+    for (int64_t k = 0; k < n->particle_count; k++) {
+        const double v = ENERGY * sqrt(sum[k] * top[k]);
+        if (v > worst * n->largest[k]) worst = n->largest[k] > 1e-290 && v < 1e10 * n->largest[k] ? v / n->largest[k] : 1e10;
+    }
+    return worst;
+}

@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * tangent.c - how the forces answer to small changes of the overlaps: T = dP/dgamma = (D^-1 - C)^-1 over contacts with P > 0.
+ *
+ * With D^1/2 taken out, T = D^1/2 A^-1 D^1/2 and A = 1 - D^1/2 C D^1/2, whose eigenvalues are 1 - lambda: conjugate gradients.
+ * Units as in an iteration, from the stiffnesses and forces; the vector to be multiplied has a unit of its own.
+ */
+#include "block.h"
+#include "bound.h"
+#include "structs.h"
+
+#define PART 0.1 /* of the tolerance, for the residual of the linear equations */
+
+typedef struct units {
+    int stiffness, force, slope; /* exponents of 2: k, P and D = dP/dx */
+} units;
+
+/* Sets network->unit, and network->slope to D. */
+static units set_slopes(nlc_network *n, const double *force)
+{
+    units u = {nlc_exponent_above(nlc_largest_magnitude(n->stiffness, n->contact_count)),
+               nlc_exponent_above(nlc_largest_magnitude(force, n->contact_count)), 0};
+    u.force += (3 - (u.force - u.stiffness) % 3) % 3; /* the unit of overlap, (P/k)^(2/3), is to be a power of 2, too */
+    u.slope = u.stiffness + (u.force - u.stiffness) / 3;
+    n->unit = nlc_join(1, u.slope);
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        const double k = nlc_join(n->stiffness[c], -u.stiffness), p = nlc_join(force[c], -u.force);
+        n->slope[c] = p > 0 && k > 1e-150 ? 1.5 * k * cbrt(p / k) : 0;
+    }
+    return u;
+}
+
+/* out = D^1/2 C D^1/2 in; false if the sweep failed */
+static bool couple(nlc_network *n, double *out, const double *in, const double *normal, nlc_outcome *o)
+{
+    double *t = n->spare[3];
+    for (int64_t c = 0; c < n->contact_count; c++) t[c] = sqrt(n->slope[c]) * in[c];
+    o->info.sweeps++;
+    o->status = nlc_displace(n, t, normal, &o->info.culprit);
+    for (int64_t c = 0; c < n->contact_count && o->status == NLC_OK; c++)
+        out[c] = sqrt(n->slope[c]) * (n->side[2 * c] + n->side[2 * c + 1]);
+    return o->status == NLC_OK;
+}
+
+static double dot(const double *a, const double *b, int64_t count)
+{
+    double s = 0;
+    for (int64_t c = 0; c < count; c++) s += a[c] * b[c];
+    return s;
+}
+
+/* A x = b by conjugate gradients; b becomes the residual. */
+static void solve_linear(nlc_network *n, double *x, double *b, const double *normal, nlc_outcome *o)
+{
+    double *p = n->spare[1], *a = n->spare[2];
+    const int64_t count = n->contact_count;
+    double rr = dot(b, b, count);
+    const double enough = PART * PART * n->settings.tolerance * n->settings.tolerance * rr, first = rr;
+    for (int64_t c = 0; c < count; c++) x[c] = 0, p[c] = b[c];
+    while (rr > enough && rr > 1e-290) {
+        if (o->info.sweeps >= n->settings.max_sweeps) o->status = NLC_WARNING_NOT_CONVERGED;
+        if (o->status != NLC_OK || !couple(n, a, p, normal, o)) break;
+        for (int64_t c = 0; c < count; c++) a[c] = p[c] - a[c];
+        const double curvature = dot(p, a, count), before = rr;
+        if (curvature <= 1e-14 * dot(p, p, count)) {
+            o->status = NLC_ERROR_UNSTABLE;
+            break;
+        }
+        for (int64_t c = 0; c < count; c++) {
+            x[c] += before / curvature * p[c];
+            b[c] -= before / curvature * a[c];
+        }
+        rr = dot(b, b, count);
+        for (int64_t c = 0; c < count; c++) p[c] = b[c] + rr / before * p[c];
+    }
+    o->info.residual = first > 0 ? sqrt(rr / first) : 0;
+}
+
+/* What the four functions check; the vector may be NULL where there is none. */
+static nlc_status check(nlc_network *n, const double *in, const double *force, const double *normal, nlc_status bad_in, int64_t *culprit)
+{
+    if (in && (*culprit = nlc_first_not_finite(in, n->contact_count)) >= 0) return bad_in;
+    if ((*culprit = nlc_first_not_force(force, n->contact_count)) >= 0) return NLC_ERROR_FORCE;
+    if ((*culprit = nlc_first_not_unit(normal, n->contact_count)) >= 0) return NLC_ERROR_NORMAL;
+    return NLC_OK;
+}
+
+/* Scaled copy; returns its unit's exponent. */
+static int scale_down(double *to, const double *from, int64_t count)
+{
+    const int e = nlc_exponent_above(nlc_largest_magnitude(from, count));
+    for (int64_t c = 0; c < count; c++) to[c] = nlc_join(from[c], -e);
+    return e;
+}
+
+/* to = from 2^e; false, with nothing written, if that is beyond the range of double */
+static bool scale_up(double *to, const double *from, int64_t count, int e)
+{
+    if (nlc_exponent_above(nlc_largest_magnitude(from, count)) + e > 1023) return false;
+    for (int64_t c = 0; c < count; c++) to[c] = nlc_join(from[c], e);
+    return true;
+}
+
+nlc_status nlc_tangent(nlc_network *network, double *NLC_RESTRICT dforce, const double *NLC_RESTRICT doverlap,
+                       const double *NLC_RESTRICT force, const double *NLC_RESTRICT normal, nlc_info *info)
+{
+    if (!nlc_info_is_valid(info)) return NLC_ERROR_STRUCT_SIZE;
+    if (!network) return nlc_error(info, NLC_ERROR_NULL, 0);
+    if (!nlc_network_is_valid(network)) return nlc_error(info, NLC_ERROR_NETWORK, -1);
+    const int64_t count = network->contact_count;
+    if (count == 0) return nlc_error(info, NLC_OK, -1);
+    if (!dforce) return nlc_error(info, NLC_ERROR_NULL, 1);
+    if (!doverlap) return nlc_error(info, NLC_ERROR_NULL, 2);
+    if (!force) return nlc_error(info, NLC_ERROR_NULL, 3);
+    if (!normal) return nlc_error(info, NLC_ERROR_NULL, 4);
+    nlc_outcome o = {NLC_OK, nlc_new_info()};
+    o.status = check(network, doverlap, force, normal, NLC_ERROR_OVERLAP, &o.info.culprit);
+    if (o.status != NLC_OK) return nlc_report(info, &o.info, o.status);
+
+    double *b = network->spare[0], *x = network->current;
+    const units u = set_slopes(network, force);
+    const int e = scale_down(b, doverlap, count);
+    for (int64_t c = 0; c < count; c++) b[c] *= sqrt(network->slope[c]);
+    solve_linear(network, x, b, normal, &o);
+    for (int64_t c = 0; c < count; c++) x[c] *= sqrt(network->slope[c]);
+    if (o.status >= 0 && !scale_up(dforce, x, count, e + u.slope)) o.status = NLC_ERROR_RANGE;
+    return nlc_report(info, &o.info, o.status);
+}
+
+nlc_status nlc_tangent_inverse(nlc_network *network, double *NLC_RESTRICT doverlap, const double *NLC_RESTRICT dforce,
+                               const double *NLC_RESTRICT force, const double *NLC_RESTRICT normal, nlc_info *info)
+{
+    if (!nlc_info_is_valid(info)) return NLC_ERROR_STRUCT_SIZE;
+    if (!network) return nlc_error(info, NLC_ERROR_NULL, 0);
+    if (!nlc_network_is_valid(network)) return nlc_error(info, NLC_ERROR_NETWORK, -1);
+    const int64_t count = network->contact_count;
+    if (count == 0) return nlc_error(info, NLC_OK, -1);
+    if (!doverlap) return nlc_error(info, NLC_ERROR_NULL, 1);
+    if (!dforce) return nlc_error(info, NLC_ERROR_NULL, 2);
+    if (!force) return nlc_error(info, NLC_ERROR_NULL, 3);
+    if (!normal) return nlc_error(info, NLC_ERROR_NULL, 4);
+    nlc_outcome o = {NLC_OK, nlc_new_info()};
+    o.status = check(network, dforce, force, normal, NLC_ERROR_FORCE, &o.info.culprit);
+    if (o.status != NLC_OK) return nlc_report(info, &o.info, o.status);
+
+    double *p = network->spare[0], *x = network->current;
+    const units u = set_slopes(network, force);
+    const int e = scale_down(p, dforce, count);
+    for (int64_t c = 0; c < count; c++) p[c] = network->slope[c] > 0 ? p[c] : 0;
+    o.info.sweeps = 1;
+    o.status = nlc_displace(network, p, normal, &o.info.culprit);
+    if (o.status != NLC_OK) return nlc_report(info, &o.info, o.status);
+    for (int64_t c = 0; c < count; c++)
+        x[c] = network->slope[c] > 1e-290 ? p[c] / network->slope[c] - (network->side[2 * c] + network->side[2 * c + 1]) : 0;
+    if (!scale_up(doverlap, x, count, e - u.slope)) o.status = NLC_ERROR_RANGE;
+    return nlc_report(info, &o.info, o.status);
+}
+
+/*
+ * Sum over a particle's contacts of D / (1 - share_i b_i - share_j b_j).  That is more than the tangent of the contact: by the
+ * argument of bound.h D^-1 - C >= diag(1 - share_i b_i - share_j b_j) D^-1.
+ */
+static double stiffness_on(const nlc_network *n, int64_t particle)
+{
+    double sum = 0;
+    for (int64_t p = n->start[particle]; p < n->start[particle + 1]; p++) {
+        const int64_t c = n->entry[p] >> 1, i = n->i[c], j = n->j[c];
+        double left = 1;
+        if (i < n->particle_count) left -= n->share[2 * c] * n->bound[i];
+        if (j < n->particle_count) left -= n->share[2 * c + 1] * n->bound[j];
+        sum += n->slope[c] / left;
+    }
+    return sum;
+}
+
+nlc_status nlc_tangent_bound(nlc_network *network, double *NLC_RESTRICT stiffness, const double *NLC_RESTRICT force,
+                             const double *NLC_RESTRICT normal, nlc_info *info)
+{
+    if (!nlc_info_is_valid(info)) return NLC_ERROR_STRUCT_SIZE;
+    if (!network) return nlc_error(info, NLC_ERROR_NULL, 0);
+    if (!nlc_network_is_valid(network)) return nlc_error(info, NLC_ERROR_NETWORK, -1);
+    const int64_t particles = network->particle_count;
+    if (particles == 0) return nlc_error(info, NLC_OK, -1);
+    if (!stiffness) return nlc_error(info, NLC_ERROR_NULL, 1);
+    if (network->contact_count > 0 && !force) return nlc_error(info, NLC_ERROR_NULL, 2);
+    if (network->contact_count > 0 && !normal) return nlc_error(info, NLC_ERROR_NULL, 3);
+    nlc_outcome o = {NLC_OK, nlc_new_info()};
+    o.status = check(network, 0, force, normal, NLC_OK, &o.info.culprit);
+    if (o.status != NLC_OK) return nlc_report(info, &o.info, o.status);
+
+    const units u = set_slopes(network, force);
+    nlc_bound bound = {0, -1, 0};
+    if (network->settings.model->within) {
+        nlc_bound_particles(network, normal, &bound);
+        o.info.lambda_upper = bound.upper;
+        o.info.critical_particle = bound.where;
+        o.info.blocks = bound.blocks;
+    } else {
+        for (int64_t k = 0; k < particles; k++) network->bound[k] = 0;
+        o.info.lambda_lower = o.info.lambda_upper = 0;
+    }
+    if (bound.upper >= 1) return nlc_report(info, &o.info, NLC_ERROR_UNSTABLE);
+    double *sum = network->growth;
+    for (int64_t k = 0; k < particles; k++) sum[k] = stiffness_on(network, k);
+    if (!scale_up(stiffness, sum, particles, u.slope)) return nlc_report(info, &o.info, NLC_ERROR_RANGE);
+    return nlc_report(info, &o.info, NLC_OK);
+}

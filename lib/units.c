@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* units.c - the units of an iteration, its start and its end. */
+#include "iteration.h"
+
+/* No step assumes a slope below this part of that at the largest overlap nearby. */
+#define SLOPE_FLOOR 0.01
+
+/* 1 / the power of 2^n that is next to x > 0 from below; 1 for 0. */
+static double per_unit_of(double x, int n)
+{
+    if (x <= 0) return 1;
+    int e = nlc_split(x).e;
+    e -= ((e % n) + n) % n;
+    return nlc_pow2(-(e < -1020 ? -1020 : e));
+}
+
+/* Largest scaled overlap on every particle, 0 at least. */
+static void largest_overlaps(nlc_iteration *q)
+{
+    nlc_network *n = q->n;
+    for (int64_t k = 0; k < n->body_count; k++) n->largest[k] = 0;
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        const double x = q->overlap[c] * q->per_overlap;
+        const int64_t i = n->i[c], j = n->j[c];
+        if (i < n->particle_count && x > n->largest[i]) n->largest[i] = x;
+        if (j < n->particle_count && x > n->largest[j]) n->largest[j] = x;
+    }
+}
+
+void nlc_iteration_start(nlc_iteration *q, nlc_network *n, const double *overlap, const double *normal)
+{
+    *q = (nlc_iteration){.n = n, .overlap = overlap, .normal = normal, .directions = 1};
+    q->per_overlap = per_unit_of(nlc_largest_magnitude(overlap, n->contact_count), 2); /* its root is a power of 2, too */
+    q->per_stiffness = per_unit_of(nlc_largest_magnitude(n->stiffness, n->contact_count), 1);
+    n->unit = sqrt(1 / q->per_overlap) / q->per_stiffness;
+    largest_overlaps(q);
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        const double a = n->largest[n->i[c]], b = n->largest[n->j[c]], top = a > b ? a : b;
+        n->current[c] *= q->per_overlap;
+        n->force[c] = nlc_scaled_force(q, c);
+        n->floor[c] = SLOPE_FLOOR * nlc_scaled_stiffness(q, c) * sqrt(top > 1e-12 ? top : 1e-12);
+    }
+}
+
+void nlc_iteration_end(nlc_iteration *q)
+{
+    for (int64_t c = 0; c < q->n->contact_count; c++) q->n->current[c] /= q->per_overlap;
+}

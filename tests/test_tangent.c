@@ -1,0 +1,220 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* test_tangent.c - energy and tangent of a solution, against differences and against each other. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene.h"
+
+#define TOLERANCE 1e-13
+
+/* Scenes to look at: a die packing, a cluster of mixed materials, a one-sphere cell, a host's own stiffnesses, Hertz. */
+#define SCENES 5
+static double stiffness[4000];
+
+static void make(scene *s, int which)
+{
+    rng g = {5};
+    scene_init(s);
+    s->options.tolerance = TOLERANCE;
+    if (which == 0) scene_packing(s, "b_die125_rd0.80.csv", 0.3);
+    if (which == 1) scene_cluster(s, &g, 11, 0.6);
+    if (which == 2) scene_cell(s, BODY_CENTRED, 1, 1e6, 0.4, (const double[]){0.94, 0.95, 0.87});
+    if (which == 3) scene_packing(s, "b_die125_rd0.56.csv", 0.3);
+    if (which == 4) scene_cluster(s, &g, 9, 0.6);
+    if (which == 3) {
+        for (int64_t c = 0; c < s->contacts; c++) stiffness[c] = 3e7 * (1 + 0.1 * (double)(c % 7));
+        s->options.stiffness = stiffness;
+    }
+    if (which == 4) s->options.model = NLC_MODEL_HERTZ;
+    ck_assert_int_eq(scene_solve(s, 0), NLC_OK);
+}
+
+static double energy_at(scene *s, double *residual)
+{
+    nlc_info info = {.struct_size = sizeof info};
+    double e;
+    ck_assert_int_eq(nlc_energy(s->network, &e, s->force, s->overlap, s->normal, &info), NLC_OK);
+    if (residual) *residual = info.residual;
+    return e;
+}
+
+static double largest(const double *a, int64_t n)
+{
+    double m = 0;
+    for (int64_t c = 0; c < n; c++) m = fmax(m, fabs(a[c]));
+    return m;
+}
+
+/*
+ * dE/dgamma_c = P_c.  Central differences over all contacts at once along a random direction: their own error is (h/gamma)^2
+ * relative, with kinks where a contact opens; 1e-7 is asked for.
+ */
+START_TEST(energy_derives_to_the_force)
+{
+    scene s;
+    make(&s, _i);
+    const int64_t n = s.contacts;
+    double *v = malloc((size_t)n * sizeof *v), *overlap = malloc((size_t)n * sizeof *overlap), work = 0, residual, e[4];
+    double *force = malloc((size_t)n * sizeof *force);
+    rng g = {3};
+    const double top = largest(s.overlap, n), h = 1e-4;
+    memcpy(overlap, s.overlap, (size_t)n * sizeof *overlap);
+    memcpy(force, s.force, (size_t)n * sizeof *force);
+    /* contacts near opening have no second derivative: they stay as they are */
+    for (int64_t c = 0; c < n; c++) v[c] = fabs(overlap[c] + s.nonlocal[c]) > 0.02 * top ? top * rng_uniform(&g, 0, 1) : 0;
+    for (int64_t c = 0; c < n; c++) work += v[c] * force[c];
+    energy_at(&s, &residual);
+    ck_assert(residual <= 1e-12);
+    for (int k = 0; k < 4; k++) { /* Richardson's: h and h/2 */
+        const double step = (k % 2 ? 1 : -1) * (k < 2 ? h : h / 2);
+        for (int64_t c = 0; c < n; c++) s.overlap[c] = overlap[c] + step * v[c];
+        ck_assert_int_eq(scene_solve(&s, 0), NLC_OK);
+        e[k] = energy_at(&s, 0);
+    }
+    const double coarse = (e[1] - e[0]) / (2 * h), fine = (e[3] - e[2]) / h;
+    nlc_assert_rel((4 * fine - coarse) / 3, work, 1e-7);
+    free(v), free(overlap), free(force);
+    scene_free(&s);
+}
+END_TEST
+
+/* The energy of a pair is that of Hertz, (2/5) P gamma. */
+START_TEST(energy_of_a_pair)
+{
+    scene s;
+    scene_init(&s);
+    const int32_t m = scene_material(&s, 1e9, 0.2);
+    scene_particle(&s, 1, m), scene_particle(&s, 2, m);
+    scene_contact(&s, 0, 1, 1e-3, 1, 1, 0);
+    ck_assert_int_eq(scene_solve(&s, 0), NLC_OK);
+    nlc_assert_rel(energy_at(&s, 0), 0.4 * s.force[0] * 1e-3, 1e-14);
+    scene_free(&s);
+}
+END_TEST
+
+/* Forces that are no solution have no energy, and that is said. */
+START_TEST(no_energy_without_a_solution)
+{
+    scene s;
+    make(&s, 1);
+    double e = 77;
+    s.force[0] *= 1 + 1e-6;
+    ck_assert_int_eq(nlc_energy(s.network, &e, s.force, s.overlap, s.normal, 0), NLC_WARNING_NOT_CONVERGED);
+    scene_free(&s);
+    scene_init(&s); /* weakened */
+    scene_cell(&s, SIMPLE_CUBIC, 1, 1, 0.5, (const double[]){0.8, 0.8, 0.8});
+    ck_assert(scene_solve(&s, 0) & NLC_WARNING_WEAKENED);
+    ck_assert_int_eq(nlc_energy(s.network, &e, s.force, s.overlap, s.normal, 0), NLC_WARNING_NOT_CONVERGED);
+    scene_free(&s);
+}
+END_TEST
+
+static void tangent(const scene *s, double *out, const double *in)
+{
+    nlc_info info = {.struct_size = sizeof info};
+    ck_assert_int_eq(nlc_tangent(s->network, out, in, s->force, s->normal, &info), NLC_OK);
+    ck_assert(info.residual <= TOLERANCE);
+}
+
+/* T against differences of solutions, symmetry u.T v = v.T u, the inverse undoes it, and T is positive definite. */
+START_TEST(tangent_is_the_derivative)
+{
+    scene s;
+    make(&s, _i);
+    const int64_t n = s.contacts;
+    double *u = calloc((size_t)n, 8), *v = calloc((size_t)n, 8), *Tu = calloc((size_t)n, 8), *Tv = calloc((size_t)n, 8);
+    double *back = calloc((size_t)n, 8), *overlap = calloc((size_t)n, 8), *f = calloc((size_t)n, 8), *force = calloc((size_t)n, 8);
+    rng g = {8};
+    const double top = largest(s.overlap, n), h = 1e-5;
+    for (int64_t c = 0; c < n; c++) {
+        const bool smooth = s.overlap[c] + s.nonlocal[c] > 0.02 * top;
+        u[c] = smooth ? top * rng_uniform(&g, -1, 1) : 0;
+        v[c] = smooth ? top * rng_uniform(&g, -1, 1) : 0;
+    }
+    tangent(&s, Tu, u);
+    tangent(&s, Tv, v);
+    double uTv = 0, vTu = 0, uTu = 0;
+    for (int64_t c = 0; c < n; c++) uTv += u[c] * Tv[c], vTu += v[c] * Tu[c], uTu += u[c] * Tu[c];
+    nlc_assert_abs(uTv, vTu, 1e-11 * uTu);
+    ck_assert(uTu > 0);
+    ck_assert_int_eq(nlc_tangent_inverse(s.network, back, Tu, s.force, s.normal, 0), NLC_OK);
+    for (int64_t c = 0; c < n; c++) nlc_assert_abs(back[c], s.force[c] > 0 ? u[c] : 0, 1e-9 * top); /* small P: D^-1 is large */
+    memcpy(overlap, s.overlap, (size_t)n * 8);
+    memcpy(force, s.force, (size_t)n * 8);
+    for (int k = -1; k <= 1; k += 2) {
+        for (int64_t c = 0; c < n; c++) s.overlap[c] = overlap[c] + k * h * u[c];
+        ck_assert_int_eq(scene_solve(&s, 0), NLC_OK);
+        for (int64_t c = 0; c < n; c++) f[c] += k * s.force[c] / (2 * h);
+    }
+    for (int64_t c = 0; c < n; c++) nlc_assert_abs(f[c], Tu[c], 2e-6 * largest(Tu, n)); /* h^2 / 0.02^2, and 1e-13 / h */
+    free(u), free(v), free(Tu), free(Tv), free(back), free(overlap), free(f), free(force);
+    scene_free(&s);
+}
+END_TEST
+
+/* K_k is no less than the diagonal of the particle's stiffness that differences show, and for lone pairs exactly D. */
+START_TEST(bound_of_the_stiffness)
+{
+    scene s;
+    make(&s, _i);
+    const int64_t n = s.contacts;
+    double *K = calloc((size_t)s.particles, 8), *in = calloc((size_t)n, 8), *out = calloc((size_t)n, 8);
+    nlc_info info = {.struct_size = sizeof info};
+    ck_assert_int_eq(nlc_tangent_bound(s.network, K, s.force, s.normal, &info), NLC_OK);
+    ck_assert(info.lambda_upper < 1);
+    for (int64_t k = 0; k < s.particles && k < 40; k++)
+        for (int x = 0; x < 3; x++) { /* move the particle along x: its contacts' overlaps change, and the force on it */
+            double answer = 0;
+            for (int64_t c = 0; c < n; c++) {
+                const double sign = (s.i[c] == k ? -1 : 0) + (s.j[c] == k ? 1 : 0);
+                in[c] = -sign * s.normal[3 * c + x];
+            }
+            tangent(&s, out, in);
+            for (int64_t c = 0; c < n; c++) answer += in[c] * out[c];
+            ck_assert_msg(answer <= K[k] * (1 + 1e-12), "particle %d: %g > %g", (int)k, answer, K[k]);
+        }
+    free(K), free(in), free(out);
+    scene_free(&s);
+}
+END_TEST
+
+/* Extremely different units: the same numbers times powers of two. */
+START_TEST(units_do_not_matter)
+{
+    scene s, t;
+    make(&s, 1);
+    rng g = {5};
+    scene_init(&t);
+    t.options.tolerance = TOLERANCE;
+    scene_cluster(&t, &g, 11, 0.6);
+    const int a = 150, b = -200; /* lengths 4^a, moduli 2^b */
+    for (int64_t k = 0; k < t.particles; k++) t.radius[k] = ldexp(t.radius[k], 2 * a);
+    for (int64_t m = 0; m < t.materials; m++) t.rows[m].young = ldexp(t.rows[m].young, b);
+    for (int64_t c = 0; c < t.contacts; c++) t.overlap[c] = ldexp(t.overlap[c], 2 * a);
+    ck_assert_int_eq(scene_solve(&t, 0), NLC_OK);
+    nlc_assert_rel(energy_at(&t, 0), ldexp(energy_at(&s, 0), 6 * a + b), 1e-13);
+    double u[64], v[64];
+    tangent(&s, u, s.overlap);
+    tangent(&t, v, t.overlap);
+    for (int64_t c = 0; c < s.contacts; c++) nlc_assert_abs(v[c], ldexp(u[c], 4 * a + b), 1e-11 * fabs(ldexp(u[c], 4 * a + b)) + 1e-300);
+    scene_free(&s);
+    scene_free(&t);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("tangent");
+    TCase *t = tcase_create("tangent");
+    tcase_set_timeout(t, 60);
+    tcase_add_checked_fixture(t, fp_trap, fp_untrap);
+    tcase_add_loop_test(t, energy_derives_to_the_force, 0, SCENES);
+    tcase_add_test(t, energy_of_a_pair);
+    tcase_add_test(t, no_energy_without_a_solution);
+    tcase_add_loop_test(t, tangent_is_the_derivative, 0, SCENES);
+    tcase_add_loop_test(t, bound_of_the_stiffness, 0, SCENES);
+    tcase_add_test(t, units_do_not_matter);
+    suite_add_tcase(suite, t);
+    return run_suite(suite);
+}
