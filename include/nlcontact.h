@@ -329,6 +329,7 @@ typedef struct nlc_info {
     int64_t weakest_particle; /* where that is; -1: nowhere */
     int64_t weakened;       /* particles with t < 1 */
     int64_t blocks;         /* particles whose coefficients were computed for the upper bound: work beside the sweeps */
+    int64_t left_out;       /* contacts left out of the iteration: without force, or not moved by any other force */
 } nlc_info;
 
 /* Who touches whom, in the caller's memory.  Opaque. */

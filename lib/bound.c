@@ -7,18 +7,25 @@
 /* No side gets less: a share near zero would make its particle's block huge. */
 #define SHARE_MIN 0.05
 
+/* Shares in the ratio of a to b, by the same roundings whichever side is called i. */
+static void set_shares(nlc_network *n, int64_t c, double a, double b)
+{
+    double s = a > 0 ? a / (a + b) : 0, t = b > 0 ? b / (a + b) : 0;
+    if (a > 0 && b > 0 && (s < SHARE_MIN || t < SHARE_MIN)) {
+        s = s < t ? SHARE_MIN : 1 - SHARE_MIN;
+        t = t < SHARE_MIN ? SHARE_MIN : 1 - SHARE_MIN;
+    }
+    n->share[2 * c] = s;
+    n->share[2 * c + 1] = t;
+}
+
 /* Shares by what the sides yield to a unit force; the whole of it where the other side does not yield at all. */
 static void first_shares(nlc_network *n)
 {
     for (int64_t c = 0; c < n->contact_count; c++) {
         const int64_t i = n->i[c], j = n->j[c];
         const double a = i < n->particle_count ? n->scale[i] : 0, b = j < n->particle_count ? n->scale[j] : 0;
-        double s = 1;
-        if (a <= 0) s = 0;
-        else if (b > 0) s = a > b ? 1 / (1 + b / a) : a / b / (1 + a / b);
-        if (a > 0 && b > 0) s = s < SHARE_MIN ? SHARE_MIN : s > 1 - SHARE_MIN ? 1 - SHARE_MIN : s;
-        n->share[2 * c] = s;
-        n->share[2 * c + 1] = 1 - s;
+        set_shares(n, c, a, b);
     }
 }
 
@@ -50,15 +57,13 @@ static void move_shares(nlc_network *n)
         const int64_t i = n->i[c], j = n->j[c];
         const double old = n->share[2 * c];
         if (i == j || n->slope[c] <= 0 || old <= 0 || old >= 1) continue;
-        const double a = old * n->bound[i] * n->bound[i], b = (1 - old) * n->bound[j] * n->bound[j];
-        double s = a / (a + b);
-        s = s < SHARE_MIN ? SHARE_MIN : s > 1 - SHARE_MIN ? 1 - SHARE_MIN : s;
-        if (fabs(s - old) <= 1e-15) continue;
-        const double grow_i = old / s, grow_j = (1 - old) / (1 - s);
+        const double other = n->share[2 * c + 1];
+        set_shares(n, c, old * n->bound[i] * n->bound[i], other * n->bound[j] * n->bound[j]);
+        const double s = n->share[2 * c], t = n->share[2 * c + 1];
+        if (fabs(s - old) <= 1e-15 && fabs(t - other) <= 1e-15) continue;
+        const double grow_i = old / s, grow_j = other / t;
         n->growth[i] = grow_i > n->growth[i] ? grow_i : n->growth[i];
         n->growth[j] = grow_j > n->growth[j] ? grow_j : n->growth[j];
-        n->share[2 * c] = s;
-        n->share[2 * c + 1] = 1 - s;
         n->changed[i] = n->changed[j] = 1;
     }
 }

@@ -39,6 +39,8 @@ static inline double nlc_scaled_force(const nlc_iteration *q, int64_t c)
 
 /* units.c: sets the units, the start (network->force from network->current, which it scales) and the floor of the slopes. */
 void nlc_iteration_start(nlc_iteration *q, nlc_network *network, const double *overlap, const double *normal);
+/* Largest overlap on the two bodies of a contact: the floor of the slopes tells. */
+double nlc_overlap_nearby(const nlc_iteration *q, int64_t c);
 /* Back to the caller's units. */
 void nlc_iteration_end(nlc_iteration *q);
 

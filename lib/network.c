@@ -18,6 +18,33 @@ static void *take(char *memory, size_t *used, int64_t count, size_t size)
     return memory ? memory + at : 0;
 }
 
+/* The part: arrays of its own for what it is, those of the whole for work. */
+static void lay_out_part(nlc_network *n, char *memory, size_t *used)
+{
+    nlc_network p = *n;
+    n->part = take(memory, used, 1, sizeof *n->part);
+    n->mark = take(memory, used, n->contact_count, sizeof *n->mark);
+    n->degree = take(memory, used, n->particle_count, sizeof *n->degree);
+    n->place = take(memory, used, n->particle_count, sizeof *n->place);
+    n->origin = take(memory, used, n->contact_count, sizeof *n->origin);
+    n->part_overlap = take(memory, used, n->contact_count, sizeof *n->part_overlap);
+    n->part_normal = take(memory, used, n->contact_count, 3 * sizeof *n->part_normal);
+    p.start = take(memory, used, n->particle_count + 1, sizeof *p.start);
+    p.radius = take(memory, used, n->particle_count, sizeof *p.radius);
+    p.scale = take(memory, used, n->particle_count, sizeof *p.scale);
+    p.largest = take(memory, used, n->particle_count + 1, sizeof *p.largest);
+    p.material = take(memory, used, n->particle_count + 1, sizeof *p.material);
+    p.i = take(memory, used, n->contact_count, sizeof *p.i);
+    p.j = take(memory, used, n->contact_count, sizeof *p.j);
+    p.stiffness = take(memory, used, n->contact_count, sizeof *p.stiffness);
+    p.force = take(memory, used, n->contact_count, sizeof *p.force);
+    p.current = take(memory, used, n->contact_count, sizeof *p.current);
+    p.entry = take(memory, used, 2 * n->contact_count, sizeof *p.entry);
+    p.side = take(memory, used, 2 * n->contact_count, sizeof *p.side);
+    p.part = 0;
+    if (memory) *n->part = p;
+}
+
 /* The arrays of a network at memory, or just their total size where memory is NULL; 0 if that overflows. */
 static size_t lay_out(nlc_network *n, char *memory)
 {
@@ -49,6 +76,7 @@ static size_t lay_out(nlc_network *n, char *memory)
     n->growth = take(memory, &used, n->particle_count, sizeof *n->growth);
     n->weakening = take(memory, &used, n->particle_count, sizeof *n->weakening);
     n->changed = take(memory, &used, n->particle_count, sizeof *n->changed);
+    lay_out_part(n, memory, &used);
     n->entry = take(memory, &used, 2 * n->contact_count, sizeof *n->entry);
     n->side = take(memory, &used, 2 * n->contact_count, sizeof *n->side);
     return used == SIZE_MAX ? 0 : used;
@@ -129,7 +157,7 @@ static bool scales_in_range(const nlc_particles *p, int *exponent)
     return true;
 }
 
-static void build_adjacency(nlc_network *n)
+void nlc_build_adjacency(nlc_network *n)
 {
     memset(n->start, 0, (size_t)(n->particle_count + 1) * sizeof *n->start);
     for (int64_t c = 0; c < n->contact_count; c++) {
@@ -160,7 +188,7 @@ static void build(nlc_network *n, const nlc_particles *p, const int32_t *i, cons
         memset(n->side, 0, 2 * (size_t)n->contact_count * sizeof *n->side);
     }
     if (n->body_count > 0) memset(n->largest, 0, (size_t)n->body_count * sizeof *n->largest);
-    build_adjacency(n);
+    nlc_build_adjacency(n);
 }
 
 /* All that can be wrong with the arguments of nlc_network_init; nothing is written but *n, *settings and *culprit. */

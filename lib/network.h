@@ -58,6 +58,14 @@ struct nlc_network {
     double *share;    /* [2 contacts] of the bound, see bound.h */
     double *bound, *norm, *growth, *weakening; /* [particles] */
     unsigned char *changed;                    /* [particles] */
+    /* The part that is solved for, see active.h; it has no part of its own, and shares the work space of solvers */
+    nlc_network *part;
+    unsigned char *mark;  /* [contacts] */
+    int32_t *degree;      /* [particles] marked contacts */
+    int32_t *place;       /* [particles] number in the part, or -1 */
+    int64_t *origin;      /* [contacts of the part] number of the contact */
+    double *part_overlap; /* [contacts of the part] */
+    double *part_normal;  /* [contacts of the part][3] */
 };
 
 /* Whether this is a network made by nlc_network_init. */
@@ -83,12 +91,19 @@ nlc_status nlc_displace(nlc_network *network, const double *force, const double 
 /* The same for the sides of one particle.  False: two directions are the same. */
 bool nlc_displace_particle(nlc_network *network, const double *force, const double *normal, int64_t particle);
 
+/* The later one of two contacts of a particle that lie in the same direction; -1: none do. */
+int64_t nlc_find_coincident(const nlc_network *network, const double *normal, int64_t particle);
+
+/* network.c: start and entry from i and j. */
+void nlc_build_adjacency(nlc_network *network);
+
 /* A particle's kernel, in units of network->unit. */
 nlc_kernel nlc_kernel_of(const nlc_network *network, int64_t particle);
 
 /* What an iteration leaves behind: the nonlocal displacement is in network->current. */
 typedef struct nlc_outcome {
     nlc_status status;
+    bool in_part; /* an error's culprit is a contact of the part */
     nlc_info info;
 } nlc_outcome;
 

@@ -2,7 +2,7 @@
 /* solve.c - the driver: checks, where to start, which method, what to hand over. */
 #include <string.h>
 
-#include "network.h"
+#include "active.h"
 #include "structs.h"
 #include "vector.h"
 
@@ -56,11 +56,62 @@ static bool all_zero(const double *values, int64_t count)
     return true;
 }
 
+/* The part's numbers of contacts and particles in those of the whole. */
+static void name_in_whole(const nlc_network *n, nlc_outcome *out)
+{
+    const int64_t critical = out->info.critical_particle, weakest = out->info.weakest_particle;
+    if (out->status < 0 && n->part->contact_count > 0 && out->in_part && out->info.culprit >= 0)
+        out->info.culprit = n->origin[out->info.culprit];
+    if (out->info.worst_contact >= 0) out->info.worst_contact = n->origin[out->info.worst_contact];
+    out->info.critical_particle = out->info.weakest_particle = -1;
+    for (int64_t k = 0; k < n->particle_count; k++) {
+        if (n->place[k] < 0) continue;
+        if (n->place[k] == critical) out->info.critical_particle = k;
+        if (n->place[k] == weakest) out->info.weakest_particle = k;
+    }
+    out->info.left_out = n->contact_count - n->part->contact_count;
+}
+
+/* All but the sweeps.  Without coupling lambda is 0. */
+static void start_over(nlc_outcome *out, bool uncoupled)
+{
+    const int64_t sweeps = out->info.sweeps, blocks = out->info.blocks;
+    *out = (nlc_outcome){NLC_OK, false, nlc_new_info()};
+    out->info.sweeps = sweeps;
+    out->info.blocks = blocks;
+    if (uncoupled) out->info.lambda_lower = out->info.lambda_upper = 0;
+}
+
+/* Solves for the contacts that may have a force, until it turns out that no other one has. */
+static void by_parts(nlc_network *n, const double *overlap, const double *normal, nlc_outcome *out)
+{
+    int64_t more = 1;
+    if (nlc_mark_active(n, overlap) > n->contact_count / 4 * 3) { /* a copy of them would cost more than it saves */
+        nlc_galerkin(n, overlap, normal, out);
+        return;
+    }
+    while (more > 0) {
+        nlc_build_part(n, overlap, normal);
+        start_over(out, n->part->contact_count == 0);
+        if (n->part->contact_count > 0) nlc_galerkin(n->part, n->part_overlap, n->part_normal, out);
+        out->in_part = out->status < 0;
+        if (out->in_part) break;
+        nlc_collect_part(n);
+        more = nlc_check_rest(n, overlap, normal, &out->info.culprit);
+        if (more < 0) out->status = NLC_ERROR_COINCIDENT;
+        if (more > 0 && out->info.sweeps >= n->settings.max_sweeps) {
+            out->status |= NLC_WARNING_NOT_CONVERGED;
+            break;
+        }
+    }
+    name_in_whole(n, out);
+}
+
 static void iterate(nlc_network *n, const double *overlap, const double *normal, const double *nonlocal, nlc_outcome *out)
 {
     start_from(n, overlap, nonlocal);
     if (n->settings.method != NLC_METHOD_FIXED_POINT) {
-        nlc_galerkin(n, overlap, normal, out);
+        by_parts(n, overlap, normal, out);
         return;
     }
     nlc_fixed_point(n, overlap, normal, out);
@@ -71,10 +122,12 @@ static void iterate(nlc_network *n, const double *overlap, const double *normal,
     }
 }
 
+/* Hertz. */
 static void uncoupled(nlc_network *n, nlc_outcome *out)
 {
     memset(n->current, 0, (size_t)n->contact_count * sizeof *n->current);
-    out->info.lambda_lower = out->info.lambda_upper = 0;
+    start_over(out, true);
+    out->info.left_out = n->contact_count;
 }
 
 nlc_status nlc_solve(nlc_network *network, double *NLC_RESTRICT force, double *NLC_RESTRICT nonlocal,
@@ -89,7 +142,7 @@ nlc_status nlc_solve(nlc_network *network, double *NLC_RESTRICT force, double *N
     if (!nonlocal) return nlc_error(info, NLC_ERROR_NULL, 2);
     if (!overlap) return nlc_error(info, NLC_ERROR_NULL, 3);
     if (!normal) return nlc_error(info, NLC_ERROR_NULL, 4);
-    nlc_outcome out = {NLC_OK, nlc_new_info()};
+    nlc_outcome out = {NLC_OK, false, nlc_new_info()};
     out.status = check(network, overlap, normal, nonlocal, &out.info.culprit);
     if (out.status != NLC_OK) return nlc_error(info, out.status, out.info.culprit);
 

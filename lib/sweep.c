@@ -123,8 +123,7 @@ static double squared_distance(const double *normal, int64_t e, int64_t f)
     return s;
 }
 
-/* The later one of two contacts of a particle that lie in the same direction. */
-static int64_t find_coincident(const nlc_network *n, const double *normal, int64_t particle)
+int64_t nlc_find_coincident(const nlc_network *n, const double *normal, int64_t particle)
 {
     for (int64_t p = n->start[particle]; p < n->start[particle + 1]; p++)
         for (int64_t q = n->start[particle]; q < p; q++)
@@ -159,7 +158,7 @@ nlc_status nlc_displace(nlc_network *network, const double *force, const double 
     if (network->settings.model->within && !in_range(network, force, normal)) return NLC_ERROR_RANGE;
     for (int64_t k = 0; k < network->particle_count; k++)
         if (!nlc_displace_particle(network, force, normal, k)) {
-            *culprit = find_coincident(network, normal, k);
+            *culprit = nlc_find_coincident(network, normal, k);
             return NLC_ERROR_COINCIDENT;
         }
     return NLC_OK;

@@ -113,7 +113,7 @@ nlc_status nlc_tangent(nlc_network *network, double *NLC_RESTRICT dforce, const 
     if (!doverlap) return nlc_error(info, NLC_ERROR_NULL, 2);
     if (!force) return nlc_error(info, NLC_ERROR_NULL, 3);
     if (!normal) return nlc_error(info, NLC_ERROR_NULL, 4);
-    nlc_outcome o = {NLC_OK, nlc_new_info()};
+    nlc_outcome o = {NLC_OK, false, nlc_new_info()};
     o.status = check(network, doverlap, force, normal, NLC_ERROR_OVERLAP, &o.info.culprit);
     if (o.status != NLC_OK) return nlc_report(info, &o.info, o.status);
 
@@ -139,7 +139,7 @@ nlc_status nlc_tangent_inverse(nlc_network *network, double *NLC_RESTRICT doverl
     if (!dforce) return nlc_error(info, NLC_ERROR_NULL, 2);
     if (!force) return nlc_error(info, NLC_ERROR_NULL, 3);
     if (!normal) return nlc_error(info, NLC_ERROR_NULL, 4);
-    nlc_outcome o = {NLC_OK, nlc_new_info()};
+    nlc_outcome o = {NLC_OK, false, nlc_new_info()};
     o.status = check(network, dforce, force, normal, NLC_ERROR_FORCE, &o.info.culprit);
     if (o.status != NLC_OK) return nlc_report(info, &o.info, o.status);
 
@@ -184,7 +184,7 @@ nlc_status nlc_tangent_bound(nlc_network *network, double *NLC_RESTRICT stiffnes
     if (!stiffness) return nlc_error(info, NLC_ERROR_NULL, 1);
     if (network->contact_count > 0 && !force) return nlc_error(info, NLC_ERROR_NULL, 2);
     if (network->contact_count > 0 && !normal) return nlc_error(info, NLC_ERROR_NULL, 3);
-    nlc_outcome o = {NLC_OK, nlc_new_info()};
+    nlc_outcome o = {NLC_OK, false, nlc_new_info()};
     o.status = check(network, 0, force, normal, NLC_OK, &o.info.culprit);
     if (o.status != NLC_OK) return nlc_report(info, &o.info, o.status);
 

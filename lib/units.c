@@ -34,12 +34,19 @@ void nlc_iteration_start(nlc_iteration *q, nlc_network *n, const double *overlap
     q->per_stiffness = per_unit_of(nlc_largest_magnitude(n->stiffness, n->contact_count), 1);
     n->unit = sqrt(1 / q->per_overlap) / q->per_stiffness;
     largest_overlaps(q);
+    for (int64_t k = 0; k < n->particle_count; k++) n->weakening[k] = 1;
     for (int64_t c = 0; c < n->contact_count; c++) {
         const double a = n->largest[n->i[c]], b = n->largest[n->j[c]], top = a > b ? a : b;
         n->current[c] *= q->per_overlap;
         n->force[c] = nlc_scaled_force(q, c);
         n->floor[c] = SLOPE_FLOOR * nlc_scaled_stiffness(q, c) * sqrt(top > 1e-12 ? top : 1e-12);
     }
+}
+
+double nlc_overlap_nearby(const nlc_iteration *q, int64_t c)
+{
+    const double root = q->n->floor[c] / (SLOPE_FLOOR * nlc_scaled_stiffness(q, c));
+    return root * root;
 }
 
 void nlc_iteration_end(nlc_iteration *q)

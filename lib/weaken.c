@@ -17,9 +17,11 @@
 #define FIRST_STEP 0.7 /* of the plain iteration, before there are differences */
 #define RESTART_STEP 0.3
 #define GROWTH 4.0     /* of the residual: then back to the best, with shorter steps */
-#define STEPS 200
+#define STEPS 240
+#define SECOND_START 80 /* steps after which it begins again from Hertz: the first start may have been a bad one */
 #define FARTHEST 1e4   /* |x| in units of the largest overlap */
-#define START_CAP 5.0
+#define START_CAP 5.0 /* of the start, in units of the largest overlap nearby, which counts as no less than SMALLEST */
+#define SMALLEST 0.05
 
 typedef struct anderson {
     int count, head;
@@ -160,11 +162,16 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
     h.old_r = n->floor;
     reset(&h, FIRST_STEP);
     for (int64_t c = 0; c < count; c++) {
-        const double v = nlc_scaled_overlap(q, c);
-        best[c] = x[c] = v > START_CAP ? START_CAP : v < -FARTHEST ? -FARTHEST : v;
+        const double v = nlc_scaled_overlap(q, c), nearby = nlc_overlap_nearby(q, c);
+        const double cap = START_CAP * (nearby > SMALLEST ? nearby : SMALLEST);
+        best[c] = x[c] = v > cap ? cap : v < -FARTHEST ? -FARTHEST : v;
     }
     out->status = NLC_WARNING_NOT_CONVERGED;
     for (int k = 0; k < STEPS && out->info.sweeps < n->settings.max_sweeps; k++) {
+        if (k == SECOND_START) {
+            for (int64_t c = 0; c < count; c++) x[c] = q->overlap[c] * q->per_overlap;
+            reset(&h, FIRST_STEP);
+        }
         const double change = weakened_map(q, x, y, out);
         double norm = 0;
         if (out->status < 0) return;

@@ -129,6 +129,7 @@ START_TEST(particles_and_contacts)
     for (int b = 0; b < 5; b++) WITH(f.s.rows[0].young, bad_young[b], init(), NLC_ERROR_YOUNG, 0);
     for (int b = 0; b < 5; b++) WITH(f.s.rows[0].poisson, bad_nu[b], init(), NLC_ERROR_POISSON, 0);
     WITH(f.s.rows[1].poisson, NAN, init(), NLC_OK, -1); /* rigid: not looked at */
+    teardown();
     setup();
     WITH(f.s.material[1], 3, init(), NLC_ERROR_MATERIAL, 1);
     WITH(f.s.material[1], -1, init(), NLC_ERROR_MATERIAL, 1);

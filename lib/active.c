@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* active.c - the part of a network that a solution has to be found for. */
+#include "active.h"
+
+#include <string.h>
+
+/*
+ * A candidate whose displacement is known from the step before takes part if what is left of its gap is less than this part
+ * of the largest overlap nearby.  One of which nothing is known (0) does in any case if there is an overlap on its bodies, at
+ * a start from nothing also one contact away.  A matter of speed only: to be wrong costs another solution.
+ */
+#define NEAR 0.2
+
+enum { OUT = 0, IN = 1, ALONE = 2 };
+
+static bool yields(const nlc_network *n, int64_t body)
+{
+    return body < n->particle_count && n->scale[body] > 0;
+}
+
+static double largest_nearby(const nlc_network *n, int64_t c)
+{
+    const double a = n->largest[n->i[c]], b = n->largest[n->j[c]];
+    return a > b ? a : b;
+}
+
+/* Whether a contact may be reached by the forces of what overlaps: there is an overlap on a body of it, or one contact away. */
+static bool is_within_reach(const nlc_network *n, int64_t c)
+{
+    const int64_t i = n->i[c], j = n->j[c];
+    return (i < n->particle_count && n->degree[i] > 0) || (j < n->particle_count && n->degree[j] > 0);
+}
+
+static void find_reach(nlc_network *n)
+{
+    for (int64_t k = 0; k < n->particle_count; k++) n->degree[k] = 0;
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        if (!(largest_nearby(n, c) > 0)) continue;
+        if (n->i[c] < n->particle_count) n->degree[n->i[c]] = 1;
+        if (n->j[c] < n->particle_count) n->degree[n->j[c]] = 1;
+    }
+}
+
+/* A marked contact is alone if neither of its sides is moved by another marked one.  Returns how many are not. */
+static int64_t count_marks(nlc_network *n)
+{
+    int64_t count = 0;
+    for (int64_t k = 0; k < n->particle_count; k++) n->degree[k] = 0;
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        if (n->mark[c] == OUT) continue;
+        if (yields(n, n->i[c])) n->degree[n->i[c]]++;
+        if (yields(n, n->j[c])) n->degree[n->j[c]]++;
+    }
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        if (n->mark[c] == OUT) continue;
+        const bool moved = (yields(n, n->i[c]) && n->degree[n->i[c]] > 1) || (yields(n, n->j[c]) && n->degree[n->j[c]] > 1);
+        n->mark[c] = moved ? IN : ALONE;
+        count += moved;
+    }
+    return count;
+}
+
+int64_t nlc_mark_active(nlc_network *n, const double *overlap)
+{
+    const bool cold = nlc_largest_magnitude(n->current, n->contact_count) <= 0;
+    if (cold) find_reach(n);
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        const double x = overlap[c] + n->current[c], top = largest_nearby(n, c);
+        const bool unknown = nlc_abs_bits(n->current[c]) == 0;
+        n->mark[c] = x > 0 || overlap[c] > 0 || (cold ? is_within_reach(n, c) : unknown ? top > 0 : x > -NEAR * top) ? IN : OUT;
+    }
+    return count_marks(n);
+}
+
+/* The number of a body in the part, given out in the order of the contacts; all walls are one. */
+static int32_t place_of(nlc_network *n, int64_t body)
+{
+    nlc_network *p = n->part;
+    if (body >= n->particle_count) return -1;
+    if (n->place[body] < 0) {
+        const int64_t k = p->particle_count++;
+        n->place[body] = (int32_t)k;
+        p->radius[k] = n->radius[body];
+        p->material[k] = n->material[body];
+        p->scale[k] = n->scale[body];
+    }
+    return n->place[body];
+}
+
+static void add_contact(nlc_network *n, int64_t c, double overlap, const double *normal)
+{
+    nlc_network *p = n->part;
+    const int64_t m = p->contact_count++;
+    const int64_t first = n->i[c] < n->j[c] ? n->i[c] : n->j[c]; /* numbers do not depend on which one is called i */
+    place_of(n, first);
+    p->i[m] = place_of(n, n->i[c]);
+    p->j[m] = place_of(n, n->j[c]);
+    p->self_contacts |= p->i[m] == p->j[m];
+    p->stiffness[m] = n->stiffness[c];
+    p->current[m] = n->current[c];
+    p->side[2 * m] = p->side[2 * m + 1] = 0;
+    n->origin[m] = c;
+    n->part_overlap[m] = overlap;
+    memcpy(n->part_normal + 3 * m, normal, 3 * sizeof *normal);
+}
+
+void nlc_build_part(nlc_network *n, const double *overlap, const double *normal)
+{
+    nlc_network *p = n->part;
+    count_marks(n);
+    p->settings = n->settings;
+    p->stiffness_exponent = n->stiffness_exponent;
+    p->coupling_exponent = n->coupling_exponent;
+    p->particle_count = p->contact_count = 0;
+    p->self_contacts = false;
+    for (int64_t k = 0; k < n->particle_count; k++) n->place[k] = -1;
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        n->force[c] = n->mark[c] == ALONE ? nlc_law(n->stiffness[c], overlap[c]) : 0;
+        if (n->mark[c] == IN) add_contact(n, c, overlap[c], normal + 3 * c);
+    }
+    for (int64_t m = 0; m < p->contact_count; m++) { /* the wall comes behind the particles, whose number is known now */
+        if (p->i[m] < 0) p->i[m] = (int32_t)p->particle_count;
+        if (p->j[m] < 0) p->j[m] = (int32_t)p->particle_count;
+    }
+    p->body_count = p->particle_count + 1;
+    p->largest[p->particle_count] = 0;
+    nlc_build_adjacency(p);
+}
+
+void nlc_collect_part(nlc_network *n)
+{
+    const nlc_network *p = n->part;
+    for (int64_t c = 0; c < n->contact_count; c++) n->current[c] = 0;
+    for (int64_t m = 0; m < p->contact_count; m++) {
+        const int64_t c = n->origin[m];
+        n->current[c] = p->current[m];
+        n->force[c] = nlc_law(n->stiffness[c], n->part_overlap[m] + p->current[m]);
+    }
+}
+
+static void put(nlc_block *b, const nlc_network *n, const double *normal, int64_t e)
+{
+    const double out = nlc_outward(e), *v = normal + 3 * (e >> 1);
+    b->x[b->count] = out * v[0];
+    b->y[b->count] = out * v[1];
+    b->z[b->count] = out * v[2];
+    b->force[b->count] = n->force[e >> 1];
+    b->displacement[b->count++] = 0;
+}
+
+/* The next sides of a particle, from *place on, that do (or do not) carry a force. */
+static void take(nlc_block *b, int64_t *entry, const nlc_network *n, const double *normal, int64_t end, int64_t *place, bool force)
+{
+    b->count = 0;
+    for (; *place < end && b->count < NLC_BLOCK; ++*place) {
+        const int64_t e = n->entry[*place];
+        if ((n->force[e >> 1] > 0) != force) continue;
+        entry[b->count] = e;
+        put(b, n, normal, e);
+    }
+}
+
+/* Adds to the displacement of one particle's contacts without force. */
+static bool move_rest(nlc_network *n, const double *normal, int64_t k)
+{
+    const int64_t end = n->start[k + 1];
+    const nlc_kernel kernel = nlc_kernel_of(n, k);
+    const double weakening = n->place[k] >= 0 ? n->part->weakening[n->place[k]] : 1;
+    int64_t target[NLC_BLOCK], source[NLC_BLOCK], p = n->start[k];
+    nlc_block a, b;
+    bool distinct = true;
+    for (take(&b, target, n, normal, end, &p, false); b.count > 0; take(&b, target, n, normal, end, &p, false)) {
+        int64_t q = n->start[k];
+        for (take(&a, source, n, normal, end, &q, true); a.count > 0; take(&a, source, n, normal, end, &q, true))
+            distinct &= n->settings.model->between(&a, &b, &kernel);
+        for (int d = 0; d < b.count; d++) n->current[target[d] >> 1] += weakening * b.displacement[d];
+    }
+    return distinct;
+}
+
+static bool is_loaded(const nlc_network *n, int64_t k)
+{
+    bool loaded = false, idle = false;
+    for (int64_t p = n->start[k]; p < n->start[k + 1] && !(loaded && idle); p++) {
+        loaded |= n->force[n->entry[p] >> 1] > 0;
+        idle |= !(n->force[n->entry[p] >> 1] > 0);
+    }
+    return loaded && idle;
+}
+
+int64_t nlc_check_rest(nlc_network *n, const double *overlap, const double *normal, int64_t *culprit)
+{
+    int64_t touching = 0;
+    n->unit = 1;
+    for (int64_t c = 0; c < n->contact_count; c++)
+        if (!(n->force[c] > 0)) n->current[c] = 0;
+    for (int64_t k = 0; k < n->particle_count; k++) {
+        if (n->scale[k] <= 0 || !is_loaded(n, k) || move_rest(n, normal, k)) continue;
+        *culprit = nlc_find_coincident(n, normal, k);
+        return -1;
+    }
+    for (int64_t c = 0; c < n->contact_count; c++) touching += n->mark[c] == OUT && overlap[c] + n->current[c] > 0;
+    if (touching == 0) return 0;
+    for (int64_t c = 0; c < n->contact_count; c++)
+        if (n->mark[c] == OUT && (overlap[c] + n->current[c] > 0 || largest_nearby(n, c) > 0)) n->mark[c] = IN;
+    return touching;
+}
