@@ -195,7 +195,7 @@ int64_t nlc_check_rest(nlc_network *n, const double *overlap, const double *norm
     for (int64_t c = 0; c < n->contact_count; c++)
         if (!(n->force[c] > 0)) n->current[c] = 0;
     for (int64_t k = 0; k < n->particle_count; k++) {
-        if (n->scale[k] <= 0 || !is_loaded(n, k) || move_rest(n, normal, k)) continue;
+        if (n->degree[k] == 0 || !is_loaded(n, k) || move_rest(n, normal, k)) continue;
         *culprit = nlc_find_coincident(n, normal, k);
         return -1;
     }

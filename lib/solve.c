@@ -82,12 +82,18 @@ static void start_over(nlc_outcome *out, bool uncoupled)
     if (uncoupled) out->info.lambda_lower = out->info.lambda_upper = 0;
 }
 
+static void warn_if_close(const nlc_network *n, const double *overlap, const double *normal, nlc_outcome *out)
+{
+    if (out->status >= 0 && nlc_circles_overlap(n, overlap, normal)) out->status |= NLC_WARNING_CLOSE;
+}
+
 /* Solves for the contacts that may have a force, until it turns out that no other one has. */
 static void by_parts(nlc_network *n, const double *overlap, const double *normal, nlc_outcome *out)
 {
     int64_t more = 1;
     if (nlc_mark_active(n, overlap) > n->contact_count / 4 * 3) { /* a copy of them would cost more than it saves */
         nlc_galerkin(n, overlap, normal, out);
+        warn_if_close(n, overlap, normal, out);
         return;
     }
     while (more > 0) {
@@ -104,6 +110,7 @@ static void by_parts(nlc_network *n, const double *overlap, const double *normal
             break;
         }
     }
+    warn_if_close(n->part, n->part_overlap, n->part_normal, out); /* a pair on its own is close to nothing */
     name_in_whole(n, out);
 }
 
@@ -120,6 +127,7 @@ static void iterate(nlc_network *n, const double *overlap, const double *normal,
         start_from(n, overlap, 0); /* it may have been a bad start */
         nlc_fixed_point(n, overlap, normal, out);
     }
+    warn_if_close(n, overlap, normal, out);
 }
 
 /* Hertz. */
@@ -151,7 +159,6 @@ nlc_status nlc_solve(nlc_network *network, double *NLC_RESTRICT force, double *N
     else
         uncoupled(network, &out);
     if (out.status < 0) return nlc_error(info, out.status, out.info.culprit);
-    if (network->settings.model->within && nlc_circles_overlap(network, overlap, normal)) out.status |= NLC_WARNING_CLOSE;
 
     for (int64_t c = 0; c < count; c++) {
         nonlocal[c] = network->current[c];
