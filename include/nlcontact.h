@@ -87,7 +87,7 @@ extern "C" {
     X(NLC_ERROR_MODEL,          -10, "no such model",                                                    "the number given")\
     X(NLC_ERROR_NOT_AVAILABLE,  -11, "the model exists, but not in this version of the library",         "the number given")\
     X(NLC_ERROR_METHOD,         -12, "no such method",                                                   "the number given")\
-    X(NLC_ERROR_OPTION,         -13, "an option is NaN, infinite, negative or unknown",                  "field's offset")  \
+    X(NLC_ERROR_OPTION,         -13, "an option is NaN, infinite, negative or unknown",                  "offset, argument")  \
     X(NLC_ERROR_RADIUS,         -14, "a radius is not positive and finite",                              "particle")        \
     X(NLC_ERROR_MATERIAL,       -15, "a material index is out of range",                                 "particle or wall")\
     X(NLC_ERROR_YOUNG,          -16, "a Young's modulus is not positive",                                "material")        \
@@ -418,6 +418,24 @@ NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *opti
  */
 NLC_API nlc_status nlc_solve(nlc_network *network, double *NLC_RESTRICT force, double *NLC_RESTRICT nonlocal,
                              const double *NLC_RESTRICT overlap, const double *NLC_RESTRICT normal, nlc_info *info);
+
+/*
+ * nlc_predict - a better start for the next nlc_solve of a scene that moves steadily: extrapolates the nonlocal displacements.
+ *
+ *     nonlocal + ratio (nonlocal - previous),  and previous becomes what nonlocal was
+ *
+ * nonlocal   [count] in-out: those of the last step, out: the start for the next one [m]
+ * previous   [count] in-out: those of the step before the last [m].  In the first step, and when the contacts have been
+ *            renumbered, copy nonlocal into it: then nothing is extrapolated.
+ * count      contacts
+ * ratio      of the coming step's length in time to the last one's; 1 for equal steps
+ * info       or NULL
+ * The start decides how many sweeps are needed, not which forces are found.
+ * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _COUNT, _NONLOCAL (a value of either array that is not finite), _OPTION (ratio
+ * is not finite), _RANGE.
+ */
+NLC_API nlc_status nlc_predict(double *NLC_RESTRICT nonlocal, double *NLC_RESTRICT previous, int64_t count, double ratio,
+                               nlc_info *info);
 
 /*
  * nlc_sweep - displacements of the surfaces under given forces: one multiplication by the coupling matrix.      [GC] 5, 9

@@ -399,6 +399,24 @@ START_TEST(energy_and_tangent)
 }
 END_TEST
 
+START_TEST(prediction)
+{
+    double previous[5] = {0};
+    keep();
+    demand(nlc_predict(0, previous, 5, 1, &f.info), NLC_ERROR_NULL, 0);
+    demand(nlc_predict(f.nonlocal, 0, 5, 1, &f.info), NLC_ERROR_NULL, 1);
+    demand(nlc_predict(f.nonlocal, previous, -1, 1, &f.info), NLC_ERROR_COUNT, 2);
+    demand(nlc_predict(f.nonlocal, previous, 5, NAN, &f.info), NLC_ERROR_OPTION, 3);
+    WITH(f.nonlocal[3], 1, nlc_predict(f.nonlocal, previous, 5, 1e308, &f.info), NLC_ERROR_RANGE, -1);
+    WITH(f.nonlocal[3], NAN, nlc_predict(f.nonlocal, previous, 5, 1, &f.info), NLC_ERROR_NONLOCAL, 3);
+    WITH(f.nonlocal[3], 1e308, nlc_predict(f.nonlocal, previous, 5, 1, &f.info), NLC_ERROR_RANGE, -1);
+    previous[2] = INFINITY;
+    keep();
+    demand(nlc_predict(f.nonlocal, previous, 5, 1, &f.info), NLC_ERROR_NONLOCAL, 2);
+    ck_assert_int_eq(nlc_predict(0, 0, 0, 1, 0), NLC_OK);
+}
+END_TEST
+
 /* Must be the last test: every error of the list has been caused by one before. */
 START_TEST(every_error_was_met)
 {
@@ -445,6 +463,7 @@ int main(void)
     tcase_add_test(t, arrays_over_contacts);
     tcase_add_test(t, same_direction_and_range);
     tcase_add_test(t, energy_and_tangent);
+    tcase_add_test(t, prediction);
     tcase_add_test(t, empty_networks);
     tcase_add_test(t, every_error_was_met);
     suite_add_tcase(suite, t);

@@ -196,6 +196,53 @@ START_TEST(beyond_the_end)
 }
 END_TEST
 
+/*
+ * A compression of 1000 steps: overlaps change by 1e-4 of the largest a step.  From the last step's displacements it takes 5
+ * sweeps to 1e-6, from predicted ones 1; and the error of the forces that belong to the start itself, which is what a host has
+ * that lags by a step, falls by more than an order (from 2e-4 to 1e-6).
+ */
+START_TEST(slow_compression)
+{
+    scene s;
+    scene_init(&s);
+    s.options.tolerance = 1e-6;
+    scene_packing(&s, "b_die125_rd0.70.csv", 0.3);
+    const int64_t n = s.contacts;
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    double *overlap = malloc((size_t)n * sizeof *overlap), *previous = calloc((size_t)n, sizeof *previous), top = 0;
+    double *w = malloc(2 * (size_t)n * sizeof *w), *guess = malloc((size_t)n * sizeof *guess), *plain = malloc((size_t)n * sizeof *plain);
+    long double *force = malloc((size_t)n * sizeof *force);
+    int64_t sweeps[2] = {0};
+    double lagged[2] = {0};
+    for (int64_t c = 0; c < n; c++) top = fmax(top, s.overlap[c]);
+    for (int predict = 0; predict < 2; predict++) {
+        memset(s.nonlocal, 0, (size_t)n * sizeof *s.nonlocal);
+        for (int step = 0; step < 1000; step++) {
+            nlc_info info = {.struct_size = sizeof info};
+            for (int64_t c = 0; c < n; c++) overlap[c] = s.overlap[c] - 1e-4 * top * (1000 - step) * (0.5 + 0.5 * (double)(c % 3) / 3);
+            if (step == 0) memcpy(previous, s.nonlocal, (size_t)n * sizeof *previous);
+            if (step > 1 && predict) ck_assert_int_eq(nlc_predict(s.nonlocal, previous, n, 1, 0), NLC_OK);
+            else if (step > 0) memcpy(previous, s.nonlocal, (size_t)n * sizeof *previous);
+            memcpy(guess, s.nonlocal, (size_t)n * sizeof *guess);
+            ck_assert_int_eq(nlc_solve(s.network, s.force, s.nonlocal, overlap, s.normal, &info) & ~NLC_WARNING_CLOSE, NLC_OK);
+            if (step < 2) continue;
+            sweeps[predict] += info.sweeps;
+            for (int64_t c = 0; c < n; c++) force[c] = s.force[c];
+            for (int64_t c = 0; c < n; c++) plain[c] = nlc_hertz_force((double)scene_stiffness(&s, c), overlap[c] + guess[c]);
+            lagged[predict] = fmax(lagged[predict], scene_error(&s, plain, force)); /* forces by the guess alone */
+        }
+    }
+    if (verbose())
+        printf("1000 steps: %.2f sweeps a step, %.2f with prediction; error of the start %.1e, %.1e\n", (double)sweeps[0] / 998,
+               (double)sweeps[1] / 998, lagged[0], lagged[1]);
+    ck_assert_int_le(sweeps[0], 5 * 998);
+    ck_assert_int_le(sweeps[1], 3 * 998 / 2);
+    ck_assert(lagged[1] < 0.1 * lagged[0]);
+    free(overlap), free(previous), free(w), free(guess), free(plain), free(force);
+    scene_free(&s);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("solver");
@@ -203,6 +250,7 @@ int main(void)
     tcase_set_timeout(t, 120);
     tcase_add_loop_test(t, cells, 0, 3);
     tcase_add_loop_test(t, crystals, 0, 3);
+    tcase_add_test(t, slow_compression);
     tcase_add_loop_test(t, packings, 0, 2);
     tcase_add_loop_test(t, beyond_the_end, 0, ENDING);
     suite_add_tcase(suite, t);
