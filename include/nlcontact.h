@@ -302,7 +302,7 @@ typedef struct nlc_options {
     size_t struct_size;      /* sizeof(nlc_options) */
     int32_t model;           /* NLC_MODEL_... */
     int32_t method;          /* NLC_METHOD_... */
-    double tolerance;        /* of the forces, see nlc_solve; 0: 1e-8 */
+    double tolerance;        /* of the forces, see nlc_solve; 0: 1e-8; more than 1 counts as 1 */
     int64_t max_sweeps;      /* 0: 1000 */
     double prefactor;        /* G of NLC_MODEL_HALF_SPACE, other models do not look at it; 0: 1 */
     int32_t simd;            /* NLC_SIMD_... */
@@ -397,7 +397,8 @@ NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *opti
  * solution that is continuously connected to zero load.  Such a solution exists up to a load at which lambda, the largest
  * eigenvalue of D^1/2 C D^1/2 (C the coupling, D the slopes dP/dx of the contacts), reaches 1; errors are amplified by
  * 1/(1 - lambda) on the way there.  The default method stops when a residual over 1 - info.lambda_upper says that the tolerance
- * is met, lambda_upper being a proved bound; info.residual is that estimate of the error.
+ * is met, lambda_upper being a proved bound (on particles with more than 64 contacts with a force, an estimate by Lanczos'
+ * method); info.residual is that estimate of the error.
  *
  * Beyond the end of the stable branch (lambda_upper > 0.985) the coupling of the particles that need it is weakened,
  * C = sum of t_k C_k with t_k = min(1, 0.985 / b_k), b_k a bound that looks at the particle and at most 17 neighbours in any
@@ -410,6 +411,9 @@ NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *opti
  *
  * Contacts of one particle so close together that their circles of contact overlap (R |N_c - N_d| < a_c + a_d) are outside the
  * validity of the model, and can have several solutions; which one is found may depend on nonlocal[]: NLC_WARNING_CLOSE.
+ * So can contacts further apart where the host makes the coupling stronger than elasticity has it, by options.stiffness well
+ * above n_H or a prefactor above 1: there, too, the solution is stable and within the tolerance of an exact one, but it need not
+ * be the one connected to zero load.
  * Exchanging i and j of a contact with its normal reversed changes no bit of the results; reordering the contacts changes
  * the last bits.
  *

@@ -153,7 +153,7 @@ static void take(nlc_block *b, int64_t *entry, const nlc_network *n, const doubl
 {
     b->count = 0;
     for (; *place < end && b->count < NLC_BLOCK; ++*place) {
-        const int64_t e = n->entry[*place];
+        const int64_t e = nlc_side_at(n, normal, *place);
         if ((n->force[e >> 1] > 0) != force) continue;
         entry[b->count] = e;
         put(b, n, normal, e);

@@ -6,7 +6,8 @@
 
 #include "small.h"
 
-#define LANCZOS_MAX 48
+#define LANCZOS_MIN 16 /* steps until a Ritz value has grown out of the start */
+#define LANCZOS_MAX 64
 #define LANCZOS_GOOD 0.02 /* residual over distance from 1 at which an estimate is good enough */
 
 static bool is_self(const nlc_network *n, int64_t e)
@@ -26,7 +27,7 @@ static bool gather_active(nlc_block *b, int64_t *entry, const nlc_network *n, co
 {
     b->count = 0;
     for (int64_t p = n->start[particle]; p < n->start[particle + 1]; p++) {
-        const int64_t e = n->entry[p];
+        const int64_t e = nlc_side_at(n, normal, p);
         if (n->slope[e >> 1] <= 0) continue;
         if (b->count == NLC_BLOCK) return false;
         const double out = nlc_outward(e), *v = normal + 3 * (e >> 1);
@@ -119,12 +120,28 @@ static double last_component(const double *a, const double *b, int n, double the
     return 1 / sqrt(norm);
 }
 
+/*
+ * A number in [-1, 1) that looks random, from a direction: a start that is orthogonal to no mode, however symmetric the
+ * contacts are, and the same whatever they are called.
+ */
+static double scattered(const double *v, double out)
+{
+    uint64_t h = 0;
+    for (int x = 0; x < 3; x++) { /* + 0 makes -0 a 0; the mixing is that of splitmix64 */
+        h += nlc_bits(out * v[x] + 0.0) + UINT64_C(0x9e3779b97f4a7c15);
+        h = (h ^ (h >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+        h = (h ^ (h >> 27)) * UINT64_C(0x94d049bb133111eb);
+        h ^= h >> 31;
+    }
+    return (double)(h >> 11) * 0x1p-52 - 1;
+}
+
 static double lanczos(nlc_network *n, const double *normal, int64_t k)
 {
     double a[LANCZOS_MAX], b[LANCZOS_MAX], *v = n->lanczos[0], *w = n->lanczos[1], *in = n->lanczos[2], norm = 0, upper = 0;
     EACH_CONTACT(e)
     {
-        v[e >> 1] = root_weight(n, e);
+        v[e >> 1] = scattered(normal + 3 * (e >> 1), is_self(n, e) ? 1 : nlc_outward(e));
         norm += v[e >> 1] * v[e >> 1];
         w[e >> 1] = 0;
     }
@@ -147,7 +164,7 @@ static double lanczos(nlc_network *n, const double *normal, int64_t k)
         b[m] = sqrt(rest);
         const double theta = nlc_largest_tridiagonal(a, b, m + 1), residual = b[m] * last_component(a, b, m + 1, theta);
         upper = theta + residual;
-        if ((m > 3 && residual < LANCZOS_GOOD * fabs(1 - theta)) || b[m] <= 1e-12 * fabs(theta)) break;
+        if ((m >= LANCZOS_MIN && residual < LANCZOS_GOOD * fabs(1 - theta)) || b[m] <= 1e-12 * fabs(theta)) break;
         EACH_CONTACT(e)
         {
             w[e >> 1] = v[e >> 1];

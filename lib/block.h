@@ -17,7 +17,8 @@ bool nlc_block_is_below(nlc_network *network, const double *normal, int64_t part
 
 /*
  * Its largest eigenvalue, to rounding from above.  With more than NLC_BLOCK contacts it is estimated by Lanczos' method as
- * Ritz value plus residual: too small only if the start is orthogonal to the largest eigenvector.  Uses network->side there.
+ * Ritz value plus residual, from a start that looks random: no proof, but it takes a conspiracy for it to be too small.  Uses
+ * network->side there.
  */
 double nlc_block_eigenvalue(nlc_network *network, const double *normal, int64_t particle);
 

@@ -9,7 +9,7 @@
  *
  * Two equal directions are an error, noticed when a block is done: DBL_MIN keeps it from dividing by zero before, and is too
  * small to change any other result.  A comparison inside the loops would keep compilers from making vectors of them, so the
- * sum of r is looked at: beyond 2^510 a direction has another one within 1e-153 of it.
+ * sum of r is looked at: beyond 2^100 a direction has another one within 1e-28 of it.
  */
 #include <float.h>
 
@@ -51,7 +51,7 @@ static void ring(nlc_block *restrict a, double *restrict theirs, double *restric
 static bool distinct(const double *nearness, int n)
 {
     for (int c = 0; c < n; c++)
-        if (nearness[c] >= nlc_pow2(510)) return false;
+        if (nearness[c] >= nlc_pow2(100)) return false;
     return true;
 }
 

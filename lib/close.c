@@ -5,12 +5,12 @@
 /* Radius of a contact's circle, a^2 = R_eff x with 1/R_eff = 1/R_i + 1/R_j ([GC] 7 and 8), in units of the particle's R. */
 static double radius_of(const nlc_network *n, int64_t c, int64_t particle, const double *overlap)
 {
-    const int64_t i = n->i[c], j = n->j[c];
+    const int64_t other = n->i[c] == particle ? n->j[c] : n->i[c];
     const double x = overlap[c] + n->current[c], R = n->radius[particle];
-    double curvature = 0;
-    if (i < n->particle_count) curvature += R / n->radius[i];
-    if (j < n->particle_count) curvature += R / n->radius[j];
-    return x > 0 ? sqrt(x / R / curvature) : 0;
+    const double S = other < n->particle_count ? n->radius[other] : INFINITY, larger = R > S ? R : S;
+    const double quarter = 0.125 * (x + fabs(x)), capped = quarter < R ? quarter : R; /* a beyond 2 R is as good as 2 R */
+    /* R_eff / R = 1 / (1 + R/S), by ratios that are at most 1 */
+    return 2 * sqrt(capped / R * (R < S ? 1 / (1 + R / larger) : S / larger / (1 + S / larger)));
 }
 
 /* By how much the square of a + b exceeds that of the distance, summed over the pairs where it does.  v + |v| is no choice. */

@@ -17,18 +17,34 @@ typedef struct sum {
     int64_t worst;
 } sum;
 
+/* Above the overlaps, the displacements after a sweep, and what the forces would need as overlaps. */
+static int largest_exponent(const nlc_network *n, const double *force, const double *overlap)
+{
+    int e = nlc_exponent_above(nlc_largest_magnitude(overlap, n->contact_count));
+    const int g = nlc_exponent_above(nlc_largest_magnitude(n->side, 2 * n->contact_count)) + 1;
+    e = g > e ? g : e;
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        const int own = (nlc_exponent_above(force[c]) - nlc_exponent_above(n->stiffness[c])) * 2 / 3 + 2;
+        if (force[c] > 0 && own > e) e = own;
+    }
+    return e;
+}
+
 /* After a sweep of the forces, everything relative to the largest force and overlap. */
 static sum add_up(nlc_network *n, const double *force, const double *overlap, double per_force, double per_overlap)
 {
+    const double most = nlc_join(1, nlc_exponent_above(nlc_largest_magnitude(force, n->contact_count)) + 40);
     sum s = {0, 0, -1};
     for (int64_t c = 0; c < n->contact_count; c++) {
         const double p = force[c] * per_force, gamma = overlap[c] * per_overlap;
         const double g = (n->side[2 * c] + n->side[2 * c + 1]) * per_overlap, own = nlc_hertz_overlap(n->stiffness[c], force[c]);
         s.energy += p * (gamma + 0.5 * g - 0.6 * (own * per_overlap));
         const double a = n->largest[n->i[c]], b = n->largest[n->j[c]], scale = (a > b ? a : b) * per_force;
-        const double size = fabs(nlc_hertz_force(n->stiffness[c], (gamma + g) / per_overlap) * per_force - p);
-        if (size <= s.residual * scale) continue;
-        s.residual = scale > 1e-290 && size < 1e10 * scale ? size / scale : 1e10;
+        const double law = nlc_hertz_force(n->stiffness[c], (gamma + g) / per_overlap);
+        const double size = fabs((law < most ? law : most) * per_force - p);
+        const double ratio = nlc_is_finite(size) ? nlc_ratio(size, scale) : 1e10;
+        if (ratio <= s.residual) continue;
+        s.residual = ratio;
         s.worst = c;
     }
     return s;
@@ -50,13 +66,12 @@ nlc_status nlc_energy(nlc_network *network, double *NLC_RESTRICT energy, const d
     if ((record.culprit = nlc_first_not_finite(overlap, count)) >= 0) return nlc_report(info, &record, NLC_ERROR_OVERLAP);
     if ((record.culprit = nlc_first_not_unit(normal, count)) >= 0) return nlc_report(info, &record, NLC_ERROR_NORMAL);
     const int p = nlc_exponent_above(nlc_largest_magnitude(force, count));
-    const int x = nlc_exponent_above(nlc_largest_magnitude(overlap, count));
-    if (p + x + nlc_exponent_above((double)count) > 1000 || p > 1000 || x > 1000) return nlc_report(info, &record, NLC_ERROR_RANGE);
-
     network->unit = 1;
     record.sweeps = 1;
     nlc_status status = nlc_displace(network, force, normal, &record.culprit);
     if (status != NLC_OK) return nlc_report(info, &record, status);
+    const int x = largest_exponent(network, force, overlap);
+    if (p + x + nlc_exponent_above((double)count) > 1000 || p > 1000 || x > 1000) return nlc_report(info, &record, NLC_ERROR_RANGE);
     const sum s = add_up(network, force, overlap, nlc_pow2(p < -1000 ? 1000 : -p), nlc_pow2(x < -1000 ? 1000 : -x));
     *energy = nlc_join(s.energy, (p < -1000 ? -1000 : p) + (x < -1000 ? -1000 : x));
     record.residual = s.residual;

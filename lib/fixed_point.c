@@ -6,7 +6,7 @@
  *
  * The change of the forces from one sweep to the next is r, its ratio to the change before is the rate; what is still to
  * come is r (rate + rate^2 + ...) = r rate / (1 - rate).  A rate measured in the largest norm is not the same everywhere: on
- * packings that made the error up to 1.1 times this, so half as much again is taken.
+ * packings that made the error up to 1.2 times this; the largest of three rates and twice the sum are taken.
  */
 #include <float.h>
 
@@ -15,12 +15,12 @@
 #define FIRST_RATE 0.9            /* before a rate has been seen */
 #define SLOWEST_RATE 0.99999      /* a rate above is no convergence */
 #define RUNAWAY 100               /* no solution has overlaps this much larger than the largest one given */
-#define SAFETY 1.5
+#define SAFETY 2.0
 #define ROUNDING (64 * DBL_EPSILON) /* changes below are noise and say nothing of the rate */
 
 typedef struct state {
     double change, last_change; /* r of this sweep and the one before */
-    double rate, last_rate;
+    double rate[3]; /* the last ones */
     double smallest; /* smallest r so far; network->spare[0] is where it was met */
     double highest;  /* largest overlap plus displacement */
     int64_t worst;
@@ -53,7 +53,7 @@ static void update_forces(nlc_network *n, const double *overlap, double cap, sta
         n->force[c] = p;
         s->highest = x > s->highest ? x : s->highest;
         if (change > s->change * scale && scale > 0) {
-            s->change = change / scale;
+            s->change = change / (scale + DBL_MIN); /* at most 1; no condition on the division, see nlc_ratio */
             s->worst = c;
         }
     }
@@ -77,13 +77,16 @@ static void swap_best(nlc_network *n)
 /* Estimated error of the forces after this sweep. */
 static double remaining(state *s, int64_t sweeps)
 {
-    if (sweeps >= 2 && s->change > ROUNDING && s->last_change > 0) {
-        s->last_rate = s->rate;
-        s->rate = s->change / s->last_change;
+    if (sweeps >= 2 && s->change > ROUNDING) {
+        s->rate[2] = s->rate[1];
+        s->rate[1] = s->rate[0];
+        s->rate[0] = nlc_ratio(s->change, s->last_change);
     }
-    double rate = s->rate > s->last_rate ? s->rate : s->last_rate;
+    double rate = s->rate[0] > s->rate[1] ? s->rate[0] : s->rate[1];
+    rate = rate > s->rate[2] ? rate : s->rate[2];
+    const double error = SAFETY * s->change * rate / (1 - (rate < SLOWEST_RATE ? rate : SLOWEST_RATE));
     if (s->change <= 0) return 0;
-    return rate < SLOWEST_RATE ? SAFETY * s->change * rate / (1 - rate) : INFINITY;
+    return rate < SLOWEST_RATE ? error : INFINITY;
 }
 
 static void finish(nlc_outcome *out, nlc_status status, double residual, int64_t worst)
@@ -96,7 +99,7 @@ static void finish(nlc_outcome *out, nlc_status status, double residual, int64_t
 void nlc_fixed_point(nlc_network *n, const double *overlap, const double *normal, nlc_outcome *out)
 {
     const double runaway = RUNAWAY * nlc_largest_magnitude(overlap, n->contact_count);
-    state s = {.rate = FIRST_RATE, .last_rate = FIRST_RATE, .smallest = INFINITY};
+    state s = {.rate = {FIRST_RATE, FIRST_RATE, FIRST_RATE}, .smallest = INFINITY};
     n->unit = 1;
     start(n, overlap);
     for (int64_t sweeps = 1; out->info.sweeps < n->settings.max_sweeps; sweeps++) {

@@ -17,13 +17,16 @@
  */
 #include "bound.h"
 #include "iteration.h"
+#include "structs.h"
 
 #define SAFETY 1.5
 #define ALL_FROM 0.35     /* Ritz value from which all directions are kept */
 #define BALANCE_FROM 0.9  /* another sweep is cheaper than balanced shares until |z| is a tenth of the tolerance */
 #define LONGEST_STEP 8    /* first steps, in units of the largest force nearby ... */
 #define SHORTEST 64       /* ... but no step is cut to less than one part in this */
-#define GIVE_UP 100       /* sweeps after which a stable solution is no longer expected */
+#define GIVE_UP 100       /* sweeps in a solve after which a stable solution is no longer expected */
+#define LOAD_STEPS 16     /* when all else has failed */
+#define LOAD_SWEEPS 60    /* in each of them but the last */
 #define NEAR 0.01         /* residual below which Ritz values say something of lambda */
 #define RUNAWAY 1e6
 #define ROUNDING 1e-13    /* residuals below may be rounding */
@@ -36,6 +39,7 @@ typedef struct progress {
     int stalled;        /* sweeps since it last fell, when it is near rounding */
     int critical;       /* sweeps in a row with a Ritz value near 1 */
     bool looked, all;
+    int64_t begun; /* sweeps before this solve */
 } progress;
 
 static bool sweep(nlc_iteration *q, const double *force, double *displacement, nlc_outcome *out)
@@ -93,7 +97,7 @@ static verdict judge(nlc_iteration *q, progress *s, nlc_outcome *out)
     if (q->largest_residual > RUNAWAY || overall > RUNAWAY) return BEYOND;
     s->ratio = 0;
     if (q->largest_residual <= 0) return certify(q, 1 - NLC_MARGIN, out);
-    s->ratio = overall > 0 && q->largest_residual < 1e10 * overall ? q->largest_residual / overall : 1e10;
+    s->ratio = nlc_ratio(q->largest_residual, overall);
     if (s->ratio > tolerance && s->ratio > ROUNDING) return GO_ON;
     nlc_force_scales(q, false);
     s->ratio = nlc_relative_size(q, q->n->direction[0], &s->where);
@@ -137,8 +141,8 @@ static bool advance(nlc_iteration *q, progress *s, nlc_outcome *out)
     const bool near = before < NEAR * q->largest_force;
     if (near && q->theta > out->info.lambda_lower) out->info.lambda_lower = q->theta;
     const bool critical = q->theta >= 1 || (near && q->theta > 1 - NLC_MARGIN + 0.001);
-    s->critical = out->info.sweeps > 4 && critical ? s->critical + 1 : 0;
-    s->all = s->all || q->theta > ALL_FROM || out->info.sweeps > 12;
+    s->critical = out->info.sweeps - s->begun > 4 && critical ? s->critical + 1 : 0;
+    s->all = s->all || q->theta > ALL_FROM || out->info.sweeps - s->begun > 12;
     nlc_take_step(q, s->all);
     return true;
 }
@@ -150,7 +154,7 @@ static verdict iterate(nlc_iteration *q, progress *s, nlc_outcome *out)
         nlc_evaluate(q);
         const verdict v = judge(q, s, out);
         if (v != GO_ON || out->info.sweeps >= q->n->settings.max_sweeps) return v;
-        if (out->info.sweeps > GIVE_UP || s->critical >= 6) return BEYOND;
+        if (out->info.sweeps - s->begun > GIVE_UP || s->critical >= 6) return BEYOND;
         if (!advance(q, s, out)) return DONE;
         if (s->looked || q->theta <= 1 - 2 * NLC_MARGIN || q->largest_residual >= NEAR * q->largest_force) continue;
         s->looked = true;
@@ -158,11 +162,12 @@ static verdict iterate(nlc_iteration *q, progress *s, nlc_outcome *out)
     }
 }
 
-void nlc_galerkin(nlc_network *n, const double *overlap, const double *normal, nlc_outcome *out)
+/* With a part of the overlaps applied. */
+static void solve(nlc_network *n, const double *overlap, const double *normal, double part, nlc_outcome *out)
 {
     nlc_iteration q;
-    progress s = {.ratio = 1e10, .best = INFINITY, .where = -1};
-    nlc_iteration_start(&q, n, overlap, normal);
+    progress s = {.ratio = 1e10, .best = INFINITY, .where = -1, .begun = out->info.sweeps};
+    nlc_iteration_start(&q, n, overlap, normal, part);
     const verdict v = iterate(&q, &s, out);
     if (out->status < 0) return;
     out->info.residual = SAFETY * s.ratio / (out->info.lambda_upper < 1 ? 1 - out->info.lambda_upper : NLC_MARGIN);
@@ -176,4 +181,30 @@ void nlc_galerkin(nlc_network *n, const double *overlap, const double *normal, n
     if (v == ROUNDED) out->status = NLC_WARNING_ROUNDING;
     if (v == BEYOND) nlc_weaken(&q, out);
     nlc_iteration_end(&q);
+}
+
+static void start_over(nlc_outcome *out)
+{
+    const int64_t sweeps = out->info.sweeps, blocks = out->info.blocks;
+    *out = (nlc_outcome){NLC_OK, false, nlc_new_info()};
+    out->info.sweeps = sweeps;
+    out->info.blocks = blocks;
+}
+
+/*
+ * Where that neither converges nor finds anything to weaken, the iterate has lost its way between several solutions: once more
+ * from nothing, with the load applied in steps.
+ */
+void nlc_galerkin(nlc_network *n, const double *overlap, const double *normal, nlc_outcome *out)
+{
+    const int64_t most = n->settings.max_sweeps;
+    solve(n, overlap, normal, 1, out);
+    if (out->status != NLC_WARNING_NOT_CONVERGED || out->info.sweeps >= most) return;
+    for (int64_t c = 0; c < n->contact_count; c++) n->current[c] = 0;
+    for (int step = 1; step <= LOAD_STEPS && out->status >= 0; step++) {
+        start_over(out);
+        n->settings.max_sweeps = out->info.sweeps + LOAD_SWEEPS < most && step < LOAD_STEPS ? out->info.sweeps + LOAD_SWEEPS : most;
+        solve(n, overlap, normal, (double)step / LOAD_STEPS, out);
+    }
+    n->settings.max_sweeps = most;
 }

@@ -12,6 +12,7 @@ typedef struct nlc_iteration {
     nlc_network *n;
     const double *overlap, *normal;
     double per_overlap, per_stiffness; /* 1 / unit */
+    double load;                       /* per_overlap times the part of the overlaps that is applied */
     double largest_residual;           /* |z|, over all contacts */
     double largest_force;
     int directions; /* how many are in use; direction[0] is the residual */
@@ -26,10 +27,14 @@ static inline double nlc_scaled_stiffness(const nlc_iteration *q, int64_t c)
     return k > 1e-150 ? k : 1e-150; /* softer ones carry nothing, and may be divided by */
 }
 
+/* No solution has overlap plus displacement beyond this. */
+#define NLC_FARTHEST 8192.0
+
 /* Overlap plus displacement, and the force of it. */
 static inline double nlc_scaled_overlap(const nlc_iteration *q, int64_t c)
 {
-    return q->overlap[c] * q->per_overlap + q->n->current[c];
+    const double y = q->overlap[c] * q->load + q->n->current[c];
+    return y < NLC_FARTHEST ? y : NLC_FARTHEST;
 }
 
 static inline double nlc_scaled_force(const nlc_iteration *q, int64_t c)
@@ -38,7 +43,7 @@ static inline double nlc_scaled_force(const nlc_iteration *q, int64_t c)
 }
 
 /* units.c: sets the units, the start (network->force from network->current, which it scales) and the floor of the slopes. */
-void nlc_iteration_start(nlc_iteration *q, nlc_network *network, const double *overlap, const double *normal);
+void nlc_iteration_start(nlc_iteration *q, nlc_network *network, const double *overlap, const double *normal, double part);
 /* Largest overlap on the two bodies of a contact: the floor of the slopes tells. */
 double nlc_overlap_nearby(const nlc_iteration *q, int64_t c);
 /* Back to the caller's units. */

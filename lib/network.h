@@ -77,6 +77,19 @@ static inline double nlc_outward(int64_t entry)
     return entry & 1 ? -1.0 : 1.0;
 }
 
+/*
+ * The side at a place of the adjacency.  The two sides of a contact of a particle with itself stand one behind the other;
+ * their order is made to depend on the normal alone, so that exchanging i and j with the normal reversed changes no bit.
+ */
+static inline int64_t nlc_side_at(const nlc_network *n, const double *normal, int64_t place)
+{
+    int64_t e = n->entry[place];
+    if (!n->self_contacts || n->i[e >> 1] != n->j[e >> 1]) return e;
+    const double *v = normal + 3 * (e >> 1);
+    double first = v[0] != 0 ? v[0] : v[1] != 0 ? v[1] : v[2];
+    return first < 0 ? e ^ 1 : e;
+}
+
 /* settings.c */
 nlc_status nlc_read_settings(nlc_settings *settings, const nlc_options *options, int64_t *culprit);
 bool nlc_prefactor_in_range(const nlc_network *network, const nlc_settings *settings);

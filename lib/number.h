@@ -59,6 +59,16 @@ static inline bool nlc_is_positive_or_infinite(double x)
     return nlc_bits(x) - 1 < NLC_INFINITY_BITS;
 }
 
+/*
+ * size / scale, at most 1e10, for 0 <= size <= 1e17; a scale near 0 counts as 1e-290.  Without a condition on the division:
+ * compilers take divisions out of their conditions, and then they divide by zero.
+ */
+static inline double nlc_ratio(double size, double scale)
+{
+    const double r = size / (scale + 1e-290);
+    return r < 1e10 ? r : 1e10;
+}
+
 /* 2^-200 <= x < 2^200: products and quotients of a few such numbers are in range */
 static inline bool nlc_is_moderate(double x)
 {

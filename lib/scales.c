@@ -26,7 +26,7 @@ double nlc_relative_size(const nlc_iteration *q, const double *values, int64_t *
     for (int64_t c = 0; c < n->contact_count; c++) {
         const double a = n->largest[n->i[c]], b = n->largest[n->j[c]], scale = a > b ? a : b, size = fabs(values[c]);
         if (size <= worst * scale) continue;
-        worst = scale > 1e-290 && size < 1e10 * scale ? size / scale : 1e10;
+        worst = nlc_ratio(size, scale);
         *where = c;
     }
     return worst;
@@ -54,7 +54,8 @@ double nlc_energy_residual(nlc_iteration *q)
     }
     for (int64_t k = 0; k < n->particle_count; k++) {
         const double v = ENERGY * sqrt(sum[k] * top[k]);
-        if (v > worst * n->largest[k]) worst = n->largest[k] > 1e-290 && v < 1e10 * n->largest[k] ? v / n->largest[k] : 1e10;
+        const double ratio = nlc_ratio(v, n->largest[k]);
+        worst = ratio > worst ? ratio : worst;
     }
     return worst;
 }

@@ -34,7 +34,7 @@ nlc_status nlc_read_settings(nlc_settings *settings, const nlc_options *o, int64
     settings->model = &nlc_models[o->model];
     settings->method = o->method;
     settings->simd = o->simd;
-    settings->tolerance = o->tolerance > 0 ? o->tolerance : DEFAULT_TOLERANCE;
+    settings->tolerance = o->tolerance <= 0 ? DEFAULT_TOLERANCE : o->tolerance < 1 ? o->tolerance : 1;
     settings->max_sweeps = o->max_sweeps > 0 ? o->max_sweeps : DEFAULT_MAX_SWEEPS;
     settings->prefactor = o->prefactor > 0 ? o->prefactor : 1;
     return NLC_OK;

@@ -7,7 +7,9 @@
 #include "vector.h"
 
 /* Largest overlap + displacement that an iteration may try, as a power of two of the largest overlap given. */
-#define HEADROOM 10
+#define HEADROOM 14
+/* Largest stiffness times coupling times root of overlap, as a power of 2; about 1 in anything physical. */
+#define COUPLING 200
 
 static nlc_status check(const nlc_network *n, const double *overlap, const double *normal, const double *nonlocal, int64_t *culprit)
 {
@@ -16,8 +18,7 @@ static nlc_status check(const nlc_network *n, const double *overlap, const doubl
     if ((*culprit = nlc_first_not_finite(nonlocal, n->contact_count)) >= 0) return NLC_ERROR_NONLOCAL;
     int e = nlc_exponent_above(nlc_largest_magnitude(overlap, n->contact_count)) + HEADROOM;
     if (e > 1000 || n->stiffness_exponent + e + (e > 0 ? e / 2 + 1 : 0) > 1000) return NLC_ERROR_RANGE;
-    const int coupling = n->coupling_exponent + n->stiffness_exponent + (e > 0 ? e / 2 : 0);
-    return coupling > 900 ? NLC_ERROR_RANGE : NLC_OK;
+    return n->coupling_exponent + n->stiffness_exponent + (e - HEADROOM) / 2 > COUPLING ? NLC_ERROR_RANGE : NLC_OK;
 }
 
 /* Largest overlap on each particle, 0 at least. */

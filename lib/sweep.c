@@ -7,26 +7,13 @@
 #include "structs.h"
 #include "vector.h"
 
-/*
- * The side at a place of the adjacency.  The two sides of a contact of a particle with itself stand one behind the other;
- * their order is made to depend on the normal alone, so that exchanging i and j with the normal reversed changes no bit.
- */
-static inline int64_t side_at(const nlc_network *n, const double *normal, int64_t place)
-{
-    int64_t e = n->entry[place];
-    if (!n->self_contacts || n->i[e >> 1] != n->j[e >> 1]) return e;
-    const double *v = normal + 3 * (e >> 1);
-    double first = v[0] != 0 ? v[0] : v[1] != 0 ? v[1] : v[2];
-    return first < 0 ? e ^ 1 : e;
-}
-
 /* Fills a block from a particle's list; returns the largest magnitude among the forces. */
 static double gather(nlc_block *b, const nlc_network *n, const double *force, const double *normal, int64_t begin, int64_t end)
 {
     double largest = 0;
     b->count = (int)(end - begin);
     for (int d = 0; d < b->count; d++) {
-        int64_t e = side_at(n, normal, begin + d), c = e >> 1;
+        int64_t e = nlc_side_at(n, normal, begin + d), c = e >> 1;
         double out = nlc_outward(e);
         b->x[d] = out * normal[3 * c];
         b->y[d] = out * normal[3 * c + 1];
@@ -41,12 +28,12 @@ static double gather(nlc_block *b, const nlc_network *n, const double *force, co
 
 static void store(const nlc_block *b, nlc_network *n, const double *normal, int64_t begin)
 {
-    for (int d = 0; d < b->count; d++) n->side[side_at(n, normal, begin + d)] = b->displacement[d];
+    for (int d = 0; d < b->count; d++) n->side[nlc_side_at(n, normal, begin + d)] = b->displacement[d];
 }
 
 static void add(const nlc_block *b, nlc_network *n, const double *normal, int64_t begin)
 {
-    for (int d = 0; d < b->count; d++) n->side[side_at(n, normal, begin + d)] += b->displacement[d];
+    for (int d = 0; d < b->count; d++) n->side[nlc_side_at(n, normal, begin + d)] += b->displacement[d];
 }
 
 nlc_kernel nlc_kernel_of(const nlc_network *n, int64_t particle)
@@ -127,7 +114,7 @@ int64_t nlc_find_coincident(const nlc_network *n, const double *normal, int64_t 
 {
     for (int64_t p = n->start[particle]; p < n->start[particle + 1]; p++)
         for (int64_t q = n->start[particle]; q < p; q++)
-            if (squared_distance(normal, n->entry[p], n->entry[q]) < nlc_pow2(-1000)) return n->entry[p] >> 1;
+            if (squared_distance(normal, n->entry[p], n->entry[q]) < nlc_pow2(-180)) return n->entry[p] >> 1;
     return -1;
 }
 

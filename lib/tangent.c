@@ -15,19 +15,21 @@ typedef struct units {
     int stiffness, force, slope; /* exponents of 2: k, P and D = dP/dx */
 } units;
 
-/* Sets network->unit, and network->slope to D. */
-static units set_slopes(nlc_network *n, const double *force)
+/* Sets network->unit, and network->slope to D.  False: beyond the range of double, or of what can be coupled. */
+static bool set_slopes(nlc_network *n, const double *force, units *result)
 {
     units u = {nlc_exponent_above(nlc_largest_magnitude(n->stiffness, n->contact_count)),
                nlc_exponent_above(nlc_largest_magnitude(force, n->contact_count)), 0};
     u.force += (3 - (u.force - u.stiffness) % 3) % 3; /* the unit of overlap, (P/k)^(2/3), is to be a power of 2, too */
     u.slope = u.stiffness + (u.force - u.stiffness) / 3;
-    n->unit = nlc_join(1, u.slope);
+    *result = u;
+    if (u.slope > 1000 || u.slope < -1000 || n->coupling_exponent + u.slope > 200) return false;
+    n->unit = nlc_pow2(u.slope);
     for (int64_t c = 0; c < n->contact_count; c++) {
         const double k = nlc_join(n->stiffness[c], -u.stiffness), p = nlc_join(force[c], -u.force);
         n->slope[c] = p > 0 && k > 1e-150 ? 1.5 * k * cbrt(p / k) : 0;
     }
-    return u;
+    return true;
 }
 
 /* out = D^1/2 C D^1/2 in; false if the sweep failed */
@@ -118,7 +120,8 @@ nlc_status nlc_tangent(nlc_network *network, double *NLC_RESTRICT dforce, const 
     if (o.status != NLC_OK) return nlc_report(info, &o.info, o.status);
 
     double *b = network->spare[0], *x = network->current;
-    const units u = set_slopes(network, force);
+    units u;
+    if (!set_slopes(network, force, &u)) return nlc_report(info, &o.info, NLC_ERROR_RANGE);
     const int e = scale_down(b, doverlap, count);
     for (int64_t c = 0; c < count; c++) b[c] *= sqrt(network->slope[c]);
     solve_linear(network, x, b, normal, &o);
@@ -144,7 +147,8 @@ nlc_status nlc_tangent_inverse(nlc_network *network, double *NLC_RESTRICT doverl
     if (o.status != NLC_OK) return nlc_report(info, &o.info, o.status);
 
     double *p = network->spare[0], *x = network->current;
-    const units u = set_slopes(network, force);
+    units u;
+    if (!set_slopes(network, force, &u)) return nlc_report(info, &o.info, NLC_ERROR_RANGE);
     const int e = scale_down(p, dforce, count);
     for (int64_t c = 0; c < count; c++) p[c] = network->slope[c] > 0 ? p[c] : 0;
     o.info.sweeps = 1;
@@ -188,7 +192,8 @@ nlc_status nlc_tangent_bound(nlc_network *network, double *NLC_RESTRICT stiffnes
     o.status = check(network, 0, force, normal, NLC_OK, &o.info.culprit);
     if (o.status != NLC_OK) return nlc_report(info, &o.info, o.status);
 
-    const units u = set_slopes(network, force);
+    units u;
+    if (!set_slopes(network, force, &u)) return nlc_report(info, &o.info, NLC_ERROR_RANGE);
     nlc_bound bound = {0, -1, 0};
     if (network->settings.model->within) {
         nlc_bound_particles(network, normal, &bound);
@@ -197,6 +202,7 @@ nlc_status nlc_tangent_bound(nlc_network *network, double *NLC_RESTRICT stiffnes
         o.info.blocks = bound.blocks;
     } else {
         for (int64_t k = 0; k < particles; k++) network->bound[k] = 0;
+        for (int64_t e = 0; e < 2 * network->contact_count; e++) network->share[e] = 0;
         o.info.lambda_lower = o.info.lambda_upper = 0;
     }
     if (bound.upper >= 1) return nlc_report(info, &o.info, NLC_ERROR_UNSTABLE);

@@ -20,18 +20,19 @@ static void largest_overlaps(nlc_iteration *q)
     nlc_network *n = q->n;
     for (int64_t k = 0; k < n->body_count; k++) n->largest[k] = 0;
     for (int64_t c = 0; c < n->contact_count; c++) {
-        const double x = q->overlap[c] * q->per_overlap;
+        const double x = q->overlap[c] * q->load;
         const int64_t i = n->i[c], j = n->j[c];
         if (i < n->particle_count && x > n->largest[i]) n->largest[i] = x;
         if (j < n->particle_count && x > n->largest[j]) n->largest[j] = x;
     }
 }
 
-void nlc_iteration_start(nlc_iteration *q, nlc_network *n, const double *overlap, const double *normal)
+void nlc_iteration_start(nlc_iteration *q, nlc_network *n, const double *overlap, const double *normal, double part)
 {
     *q = (nlc_iteration){.n = n, .overlap = overlap, .normal = normal, .directions = 1};
     q->per_overlap = per_unit_of(nlc_largest_magnitude(overlap, n->contact_count), 2); /* its root is a power of 2, too */
     q->per_stiffness = per_unit_of(nlc_largest_magnitude(n->stiffness, n->contact_count), 1);
+    q->load = q->per_overlap * part;
     n->unit = sqrt(1 / q->per_overlap) / q->per_stiffness;
     largest_overlaps(q);
     for (int64_t k = 0; k < n->particle_count; k++) n->weakening[k] = 1;
@@ -51,5 +52,8 @@ double nlc_overlap_nearby(const nlc_iteration *q, int64_t c)
 
 void nlc_iteration_end(nlc_iteration *q)
 {
-    for (int64_t c = 0; c < q->n->contact_count; c++) q->n->current[c] /= q->per_overlap;
+    for (int64_t c = 0; c < q->n->contact_count; c++) {
+        const double highest = NLC_FARTHEST - q->overlap[c] * q->load;
+        q->n->current[c] = (q->n->current[c] < highest ? q->n->current[c] : highest) / q->per_overlap;
+    }
 }

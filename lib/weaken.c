@@ -19,7 +19,6 @@
 #define GROWTH 4.0     /* of the residual: then back to the best, with shorter steps */
 #define STEPS 240
 #define SECOND_START 80 /* steps after which it begins again from Hertz: the first start may have been a bad one */
-#define FARTHEST 1e4   /* |x| in units of the largest overlap */
 #define START_CAP 5.0 /* of the start, in units of the largest overlap nearby, which counts as no less than SMALLEST */
 #define SMALLEST 0.05
 
@@ -128,7 +127,7 @@ static void next_x(anderson *h, double *x, const double *r, int64_t count)
         for (int l = 0; l < h->count; l++) v -= s[l] * ((double)h->dx[l][c] + step * (double)h->df[l][c]);
         h->old_x[c] = x[c];
         h->old_r[c] = r[c];
-        x[c] = v > FARTHEST ? FARTHEST : v < -FARTHEST ? -FARTHEST : v;
+        x[c] = v > NLC_FARTHEST ? NLC_FARTHEST : v < -NLC_FARTHEST ? -NLC_FARTHEST : v;
     }
     h->pending = true;
 }
@@ -164,12 +163,12 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
     for (int64_t c = 0; c < count; c++) {
         const double v = nlc_scaled_overlap(q, c), nearby = nlc_overlap_nearby(q, c);
         const double cap = START_CAP * (nearby > SMALLEST ? nearby : SMALLEST);
-        best[c] = x[c] = v > cap ? cap : v < -FARTHEST ? -FARTHEST : v;
+        best[c] = x[c] = v > cap ? cap : v < -NLC_FARTHEST ? -NLC_FARTHEST : v;
     }
     out->status = NLC_WARNING_NOT_CONVERGED;
     for (int k = 0; k < STEPS && out->info.sweeps < n->settings.max_sweeps; k++) {
         if (k == SECOND_START) {
-            for (int64_t c = 0; c < count; c++) x[c] = q->overlap[c] * q->per_overlap;
+            for (int64_t c = 0; c < count; c++) x[c] = q->overlap[c] * q->load;
             reset(&h, FIRST_STEP);
         }
         const double change = weakened_map(q, x, y, out);

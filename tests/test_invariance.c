@@ -73,6 +73,71 @@ START_TEST(exchange_of_sides_changes_no_bit)
 }
 END_TEST
 
+/* Nor does it beyond the end of the stable branch, where shares of bounds decide the forces. */
+START_TEST(exchange_of_sides_changes_no_bit_when_weakened)
+{
+    for (int seed = 1; seed < 12; seed++) {
+        rng g = {(uint64_t)seed};
+        scene s;
+        scene_init(&s);
+        const int32_t a = scene_material(&s, 1, 0.45), b = scene_material(&s, 1.7, 0.4);
+        for (int k = 0; k < 4; k++) scene_particle(&s, rng_uniform(&g, 0.5, 2), k % 2 ? a : b);
+        for (int k = 0; k < 4; k++)
+            for (int d = k; d < 4; d++) {
+                double n[3];
+                rng_unit(&g, n);
+                scene_contact(&s, k, d, rng_uniform(&g, 0.1, 0.9), n[0], n[1], n[2]);
+            }
+        ck_assert_int_ge(scene_solve(&s, 0), NLC_OK);
+        double *force = copy(s.force, s.contacts), *nonlocal = copy(s.nonlocal, s.contacts);
+        for (int64_t c = 0; c < s.contacts; c += 1 + seed % 2) {
+            const int32_t t = s.i[c];
+            s.i[c] = s.j[c];
+            s.j[c] = t;
+            for (int x = 0; x < 3; x++) s.normal[3 * c + x] *= -1;
+        }
+        s.network = 0;
+        ck_assert_int_ge(scene_solve(&s, 0), NLC_OK);
+        for (int64_t c = 0; c < s.contacts; c++) {
+            nlc_assert_same(s.force[c], force[c]);
+            nlc_assert_same(s.nonlocal[c], nonlocal[c]);
+        }
+        free(force), free(nonlocal);
+        scene_free(&s);
+    }
+}
+END_TEST
+
+/* Stiffnesses and overlaps that have nothing to do with the moduli: an error or finite forces, and no exception. */
+START_TEST(absurd_numbers_are_survived)
+{
+    const double k[] = {1e-300, 1e-100, 1, 1e50, 1e100, 1e180, 1e300}, x[] = {1e-300, 1e-150, 1e-3, 1e100, 1e170, 1e300};
+    const double E[] = {1e-100, 1, 1e200};
+    for (int a = 0; a < 7; a++)
+        for (int b = 0; b < 6; b++)
+            for (int d = 0; d < 3; d++) {
+                scene s;
+                scene_init(&s);
+                double stiffness[3] = {k[a], k[a], k[a]}, e, out[3] = {0}, K[4];
+                if (a != 2) s.options.stiffness = stiffness;
+                const int32_t m = scene_material(&s, E[d], 0.3);
+                for (int p = 0; p < 4; p++) scene_particle(&s, 1, m);
+                scene_contact(&s, 0, 1, x[b], 1, 0, 0);
+                scene_contact(&s, 0, 2, x[b], -1, 0, 0);
+                scene_contact(&s, 3, 0, x[b], 0, 1, 0);
+                if (scene_solve(&s, 0) >= 0)
+                    for (int c = 0; c < 3; c++) ck_assert(isfinite(s.force[c]) && isfinite(s.nonlocal[c]) && s.force[c] >= 0);
+                for (int c = 0; c < 3; c++) s.force[c] = x[5 - b];
+                nlc_energy(s.network, &e, s.force, s.overlap, s.normal, 0);
+                nlc_tangent(s.network, out, s.overlap, s.force, s.normal, 0);
+                nlc_tangent_inverse(s.network, out, s.overlap, s.force, s.normal, 0);
+                nlc_tangent_bound(s.network, K, s.force, s.normal, 0);
+                nlc_sweep(s.network, (double[6]){0}, s.force, 0, s.normal, 0);
+                scene_free(&s);
+            }
+}
+END_TEST
+
 /* In another order of the contacts the sums are rounded in another order, no more. */
 START_TEST(order_of_contacts_changes_last_bits_only)
 {
@@ -457,6 +522,8 @@ int main(void)
     TCase *t = tcase_create("invariance");
     tcase_add_checked_fixture(t, fp_trap, fp_untrap);
     tcase_add_loop_test(t, exchange_of_sides_changes_no_bit, 0, 4);
+    tcase_add_test(t, exchange_of_sides_changes_no_bit_when_weakened);
+    tcase_add_test(t, absurd_numbers_are_survived);
     tcase_add_test(t, order_of_contacts_changes_last_bits_only);
     tcase_add_test(t, coupling_is_symmetric);
     tcase_add_test(t, rotation_changes_nothing);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* test_tangent.c - energy and tangent of a solution, against differences and against each other. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -179,6 +180,60 @@ START_TEST(bound_of_the_stiffness)
 }
 END_TEST
 
+/*
+ * More contacts on a particle than a block holds, in the most symmetric arrangement there is: equally spaced round its equator.
+ * The mode to which they answer most alternates in sign from one to the next; the bound has to see it.
+ */
+START_TEST(symmetric_crowd)
+{
+    const int z = 80;
+    scene s;
+    scene_init(&s);
+    s.options.tolerance = 1e-10;
+    const int32_t soft = scene_material(&s, 1, 0.25), rigid = scene_material(&s, INFINITY, 0);
+    scene_particle(&s, 1, soft);
+    for (int k = 0; k < z; k++) scene_particle(&s, 0.02, rigid);
+    for (int k = 0; k < z; k++) scene_contact(&s, 0, k + 1, 1e-3, cos(2 * 3.14159265358979324 * k / z), sin(2 * 3.14159265358979324 * k / z), 0);
+    ck_assert_int_ge(scene_solve(&s, 0), NLC_OK);
+    double in[80], out[80], K[81], answer = 0, largest_answer = 0;
+    ck_assert_int_eq(nlc_tangent_bound(s.network, K, s.force, s.normal, 0), NLC_OK);
+    for (int k = 0; k < z; k++) in[k] = k % 2 ? 1 : -1;
+    tangent(&s, out, in);
+    for (int k = 0; k < z; k++) answer += in[k] * out[k], largest_answer = fmax(largest_answer, fabs(out[k]));
+    ck_assert(answer <= K[0] && largest_answer <= K[1]);
+    if (verbose()) printf("ratio %g\n", answer * (1e-3 + s.nonlocal[0]) / (80 * 1.5 * s.force[0]));
+    ck_assert(answer > 1.02 * 80 * 1.5 * s.force[0] / (1e-3 + s.nonlocal[0])); /* more than without coupling: it matters */
+    scene_free(&s);
+}
+END_TEST
+
+/* What the memory held before is of no importance. */
+START_TEST(memory_need_not_be_clean)
+{
+    for (int model = 0; model < 3; model++) {
+        double K[2][64] = {{0}}, total[2];
+        for (int fill = 0; fill < 2; fill++) {
+            rng g = {5};
+            scene s;
+            scene_init(&s);
+            s.options.model = model;
+            scene_cluster(&s, &g, 9, 0.6);
+            ck_assert_int_eq(scene_build(&s), NLC_OK);
+            const nlc_particles view = scene_view(&s);
+            const size_t size = nlc_network_size(&view, s.contacts, &s.options);
+            memset(s.memory, fill ? 0xff : 0, size);
+            ck_assert_int_eq(nlc_network_init(&s.network, s.memory, size, &view, s.i, s.j, s.contacts, &s.options, 0), NLC_OK);
+            ck_assert_int_eq(scene_solve(&s, 0), NLC_OK);
+            ck_assert_int_eq(nlc_tangent_bound(s.network, K[fill], s.force, s.normal, 0), NLC_OK);
+            total[fill] = scene_total(&s);
+            scene_free(&s);
+        }
+        nlc_assert_same(total[0], total[1]);
+        for (int k = 0; k < 64; k++) nlc_assert_same(K[0][k], K[1][k]);
+    }
+}
+END_TEST
+
 /* Extremely different units: the same numbers times powers of two. */
 START_TEST(units_do_not_matter)
 {
@@ -214,6 +269,8 @@ int main(void)
     tcase_add_test(t, no_energy_without_a_solution);
     tcase_add_loop_test(t, tangent_is_the_derivative, 0, SCENES);
     tcase_add_loop_test(t, bound_of_the_stiffness, 0, SCENES);
+    tcase_add_test(t, symmetric_crowd);
+    tcase_add_test(t, memory_need_not_be_clean);
     tcase_add_test(t, units_do_not_matter);
     suite_add_tcase(suite, t);
     return run_suite(suite);
