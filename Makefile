@@ -39,6 +39,8 @@ ALL_CFLAGS = -std=c11 $(WARNINGS) -ffile-prefix-map=$(S)/= $(CFLAGS)
 LIB_CFLAGS = -std=c11 $(WARNINGS) -fPIC -fvisibility=hidden -ffp-contract=off -fno-math-errno -ffile-prefix-map=$(S)/= $(CFLAGS)
 DEPFLAGS = -MMD -MP
 LIBS := -lm
+# The shared library is linked with all it needs; sanitized ones get it from the program.
+NO_UNDEFINED ?= -Wl,-z,defs
 
 LIB_SRC := $(sort $(wildcard $(S)/lib/*.c))
 LIB_OBJ := $(LIB_SRC:$(S)/%.c=$(B)/%.o)
@@ -65,7 +67,7 @@ $(STATIC): $(LIB_OBJ)
 	$(AR) rcD $@ $^
 
 $(SHARED): $(LIB_OBJ) $(S)/lib/nlcontact.map
-	$(CC) -shared -Wl,-soname,$(SONAME) -Wl,--version-script=$(S)/lib/nlcontact.map -Wl,-z,defs $(LDFLAGS) \
+	$(CC) -shared -Wl,-soname,$(SONAME) -Wl,--version-script=$(S)/lib/nlcontact.map $(NO_UNDEFINED) $(LDFLAGS) \
 		-o $@ $(LIB_OBJ) $(LIBS)
 	ln -sf $(@F) $(B)/$(SONAME)
 	ln -sf $(SONAME) $(B)/libnlcontact.so

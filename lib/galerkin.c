@@ -25,6 +25,7 @@
 #define LONGEST_STEP 8    /* first steps, in units of the largest force nearby ... */
 #define SHORTEST 64       /* ... but no step is cut to less than one part in this */
 #define GIVE_UP 100       /* sweeps in a solve after which a stable solution is no longer expected */
+#define HOPELESS 0.9      /* ... if a Ritz value is above this; many strong repulsions take as long, but converge */
 #define LOAD_STEPS 16     /* when all else has failed */
 #define LOAD_SWEEPS 60    /* in each of them but the last */
 #define NEAR 0.01         /* residual below which Ritz values say something of lambda */
@@ -154,7 +155,7 @@ static verdict iterate(nlc_iteration *q, progress *s, nlc_outcome *out)
         nlc_evaluate(q);
         const verdict v = judge(q, s, out);
         if (v != GO_ON || out->info.sweeps >= q->n->settings.max_sweeps) return v;
-        if (out->info.sweeps - s->begun > GIVE_UP || s->critical >= 6) return BEYOND;
+        if ((out->info.sweeps - s->begun > GIVE_UP && q->theta > HOPELESS) || s->critical >= 6) return BEYOND;
         if (!advance(q, s, out)) return DONE;
         if (s->looked || q->theta <= 1 - 2 * NLC_MARGIN || q->largest_residual >= NEAR * q->largest_force) continue;
         s->looked = true;

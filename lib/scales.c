@@ -55,7 +55,8 @@ double nlc_energy_residual(nlc_iteration *q)
     for (int64_t k = 0; k < n->particle_count; k++) {
         const double v = ENERGY * sqrt(sum[k] * top[k]);
         const double ratio = nlc_ratio(v, n->largest[k]);
-        worst = ratio > worst ? ratio : worst;
+        /* a particle without force has no scale of its own; its contacts have that of their other particle */
+        if (n->largest[k] > 0 && ratio > worst) worst = ratio;
     }
     return worst;
 }

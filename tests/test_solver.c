@@ -112,6 +112,40 @@ START_TEST(crystals)
 }
 END_TEST
 
+/* Many small spheres on a large one: eigenvalues far below -1, where the fixed point oscillates, and more than one block. */
+START_TEST(crowded_sphere)
+{
+    const int z = 150 + 150 * _i;
+    rng g = {(uint64_t)_i + 3};
+    scene s;
+    exact e;
+    scene_init(&s);
+    const int32_t m = scene_material(&s, 1, 0.2);
+    scene_particle(&s, 1, m);
+    for (int k = 0; k < z; k++) scene_particle(&s, 0.05, m);
+    for (int k = 0; k < z; k++) { /* a spiral of evenly spread directions */
+        const double h = 1 - (2 * k + 1.) / z, r = sqrt(1 - h * h), phi = 3.14159265358979324 * (1 + sqrt(5)) * k;
+        scene_contact(&s, 0, k + 1, rng_uniform(&g, -1e-3, 2e-2), r * cos(phi), r * sin(phi), h);
+    }
+    exact_init(&e, &s);
+    ck_assert(exact_move(&e, 1));
+    for (double tolerance = 1e-10; tolerance < 1; tolerance *= 1e4) {
+        cold(&s);
+        const result r = solve_at(&s, &e, 1, tolerance);
+        if (verbose()) printf("%d small ones: %d sweeps, error %.1e\n", z, (int)r.info.sweeps, r.error);
+        ck_assert_int_eq(r.status & ~NLC_WARNING_CLOSE, NLC_OK);
+        ck_assert(r.error <= tolerance);
+        ck_assert_int_le(r.info.sweeps, 30);
+    }
+    s.options.method = NLC_METHOD_FIXED_POINT;
+    s.network = 0;
+    cold(&s);
+    if (_i == 2) ck_assert(solve_at(&s, &e, 1, 1e-6).status & NLC_WARNING_NOT_CONVERGED);
+    exact_free(&e);
+    scene_free(&s);
+}
+END_TEST
+
 /* Scenes whose stable branch ends: cells, noisy crystals, a packing of almost incompressible grains. */
 #define ENDING 8
 static const char *ending(scene *s, int which, double *end)
@@ -253,6 +287,7 @@ int main(void)
     tcase_set_timeout(t, 120);
     tcase_add_loop_test(t, cells, 0, 3);
     tcase_add_loop_test(t, crystals, 0, 3);
+    tcase_add_loop_test(t, crowded_sphere, 0, 3);
     tcase_add_test(t, slow_compression);
     tcase_add_loop_test(t, packings, 0, 2);
     tcase_add_loop_test(t, beyond_the_end, 0, ENDING);
