@@ -103,61 +103,72 @@ static bool scale_up(double *to, const double *from, int64_t count, int e)
     return true;
 }
 
+typedef struct call {
+    nlc_outcome o;
+    units u;
+    int in; /* exponent of the unit of the vector, whose scaled copy is in spare[0] */
+} call;
+
+/* What nlc_tangent and its inverse begin with.  False: there is nothing to compute, call.o.status is to be returned. */
+static bool begin(call *k, nlc_network *n, const double *out, const double *in, const double *force, const double *normal,
+                  nlc_status bad_in, nlc_info *info)
+{
+    k->o = (nlc_outcome){NLC_ERROR_STRUCT_SIZE, false, nlc_new_info()};
+    if (!nlc_info_is_valid(info)) return false;
+    k->o.status = NLC_OK;
+    if (!n) {
+        k->o.status = NLC_ERROR_NULL;
+        k->o.info.culprit = 0;
+    } else if (!nlc_network_is_valid(n)) {
+        k->o.status = NLC_ERROR_NETWORK;
+    } else if (n->contact_count > 0) {
+        const double *const argument[4] = {out, in, force, normal};
+        for (int a = 4; a > 0; a--) {
+            if (argument[a - 1]) continue;
+            k->o.status = NLC_ERROR_NULL;
+            k->o.info.culprit = a;
+        }
+        if (k->o.status == NLC_OK) k->o.status = check(n, in, force, normal, bad_in, &k->o.info.culprit);
+        if (k->o.status == NLC_OK && !set_slopes(n, force, &k->u)) k->o.status = NLC_ERROR_RANGE;
+    }
+    if (k->o.status == NLC_OK && n->contact_count > 0) {
+        k->in = scale_down(n->spare[0], in, n->contact_count);
+        return true;
+    }
+    nlc_report(info, &k->o.info, k->o.status);
+    return false;
+}
+
 nlc_status nlc_tangent(nlc_network *network, double *NLC_RESTRICT dforce, const double *NLC_RESTRICT doverlap,
                        const double *NLC_RESTRICT force, const double *NLC_RESTRICT normal, nlc_info *info)
 {
-    if (!nlc_info_is_valid(info)) return NLC_ERROR_STRUCT_SIZE;
-    if (!network) return nlc_error(info, NLC_ERROR_NULL, 0);
-    if (!nlc_network_is_valid(network)) return nlc_error(info, NLC_ERROR_NETWORK, -1);
+    call k;
+    if (!begin(&k, network, dforce, doverlap, force, normal, NLC_ERROR_OVERLAP, info)) return k.o.status;
     const int64_t count = network->contact_count;
-    if (count == 0) return nlc_error(info, NLC_OK, -1);
-    if (!dforce) return nlc_error(info, NLC_ERROR_NULL, 1);
-    if (!doverlap) return nlc_error(info, NLC_ERROR_NULL, 2);
-    if (!force) return nlc_error(info, NLC_ERROR_NULL, 3);
-    if (!normal) return nlc_error(info, NLC_ERROR_NULL, 4);
-    nlc_outcome o = {NLC_OK, false, nlc_new_info()};
-    o.status = check(network, doverlap, force, normal, NLC_ERROR_OVERLAP, &o.info.culprit);
-    if (o.status != NLC_OK) return nlc_report(info, &o.info, o.status);
-
     double *b = network->spare[0], *x = network->current;
-    units u;
-    if (!set_slopes(network, force, &u)) return nlc_report(info, &o.info, NLC_ERROR_RANGE);
-    const int e = scale_down(b, doverlap, count);
     for (int64_t c = 0; c < count; c++) b[c] *= sqrt(network->slope[c]);
-    solve_linear(network, x, b, normal, &o);
+    solve_linear(network, x, b, normal, &k.o);
     for (int64_t c = 0; c < count; c++) x[c] *= sqrt(network->slope[c]);
-    if (o.status >= 0 && !scale_up(dforce, x, count, e + u.slope)) o.status = NLC_ERROR_RANGE;
-    return nlc_report(info, &o.info, o.status);
+    if (k.o.status >= 0 && !scale_up(dforce, x, count, k.in + k.u.slope)) k.o.status = NLC_ERROR_RANGE;
+    return nlc_report(info, &k.o.info, k.o.status);
 }
 
 nlc_status nlc_tangent_inverse(nlc_network *network, double *NLC_RESTRICT doverlap, const double *NLC_RESTRICT dforce,
                                const double *NLC_RESTRICT force, const double *NLC_RESTRICT normal, nlc_info *info)
 {
-    if (!nlc_info_is_valid(info)) return NLC_ERROR_STRUCT_SIZE;
-    if (!network) return nlc_error(info, NLC_ERROR_NULL, 0);
-    if (!nlc_network_is_valid(network)) return nlc_error(info, NLC_ERROR_NETWORK, -1);
+    call k;
+    if (!begin(&k, network, doverlap, dforce, force, normal, NLC_ERROR_FORCE, info)) return k.o.status;
     const int64_t count = network->contact_count;
-    if (count == 0) return nlc_error(info, NLC_OK, -1);
-    if (!doverlap) return nlc_error(info, NLC_ERROR_NULL, 1);
-    if (!dforce) return nlc_error(info, NLC_ERROR_NULL, 2);
-    if (!force) return nlc_error(info, NLC_ERROR_NULL, 3);
-    if (!normal) return nlc_error(info, NLC_ERROR_NULL, 4);
-    nlc_outcome o = {NLC_OK, false, nlc_new_info()};
-    o.status = check(network, dforce, force, normal, NLC_ERROR_FORCE, &o.info.culprit);
-    if (o.status != NLC_OK) return nlc_report(info, &o.info, o.status);
-
     double *p = network->spare[0], *x = network->current;
-    units u;
-    if (!set_slopes(network, force, &u)) return nlc_report(info, &o.info, NLC_ERROR_RANGE);
-    const int e = scale_down(p, dforce, count);
     for (int64_t c = 0; c < count; c++) p[c] = network->slope[c] > 0 ? p[c] : 0;
-    o.info.sweeps = 1;
-    o.status = nlc_displace(network, p, normal, &o.info.culprit);
-    if (o.status != NLC_OK) return nlc_report(info, &o.info, o.status);
-    for (int64_t c = 0; c < count; c++)
-        x[c] = network->slope[c] > 1e-290 ? p[c] / network->slope[c] - (network->side[2 * c] + network->side[2 * c + 1]) : 0;
-    if (!scale_up(doverlap, x, count, e - u.slope)) o.status = NLC_ERROR_RANGE;
-    return nlc_report(info, &o.info, o.status);
+    k.o.info.sweeps = 1;
+    k.o.status = nlc_displace(network, p, normal, &k.o.info.culprit);
+    for (int64_t c = 0; c < count && k.o.status == NLC_OK; c++) {
+        const double slope = network->slope[c], own = p[c] / (slope > 1e-290 ? slope : 1e-290);
+        x[c] = slope > 1e-290 ? own - (network->side[2 * c] + network->side[2 * c + 1]) : 0;
+    }
+    if (k.o.status == NLC_OK && !scale_up(doverlap, x, count, k.in - k.u.slope)) k.o.status = NLC_ERROR_RANGE;
+    return nlc_report(info, &k.o.info, k.o.status);
 }
 
 /*
