@@ -21,17 +21,20 @@ static const char usage[] =
     "Times the library's functions on packings, and one sweep of Algorithm 1 as printed beside nlc_sweep.\n"
     "In every run each function is timed once, one after the other, so that they meet the same conditions.\n";
 
+enum { COUPLED, HERTZ, FIXED_POINT, NETWORKS };
+
 /* A packing with all that the functions need. */
 typedef struct bench {
     packing p;
     neighbours n;
     nlc_particles particles;
-    void *memory[2];
+    void *memory[NETWORKS];
     size_t memory_size;
-    nlc_network *coupled, *hertz;
+    nlc_network *coupled, *hertz, *fixed_point;
     algorithm1 reference;
     double *force, *nonlocal; /* [contacts] the solution */
     double *work, *start;     /* [contacts] */
+    double *loose, *known;    /* [contacts] overlaps with a small part compressed, and displacements that solve them */
     double *displacement;     /* [contacts][2] */
     double *resultant;        /* [particles][3] */
     double *wall_resultant;   /* [walls][3] */
@@ -67,22 +70,50 @@ static nlc_status run_hertz(bench *b)
     return nlc_solve(b->hertz, b->work, b->start, b->n.overlap, normals(b), NULL);
 }
 
-static nlc_status build(bench *b, int which, nlc_network **network, int32_t model)
+static nlc_status build(bench *b, int which, nlc_network **network)
 {
-    nlc_options options = {.struct_size = sizeof options, .model = model};
+    nlc_options options = {.struct_size = sizeof options};
+    if (which == HERTZ) options.model = NLC_MODEL_HERTZ;
+    if (which == FIXED_POINT) options.method = NLC_METHOD_FIXED_POINT;
     return nlc_network_init(network, b->memory[which], b->memory_size, &b->particles, b->n.i, b->n.j, b->n.count, &options,
                             NULL);
 }
 
 static nlc_status run_init(bench *b)
 {
-    return build(b, 0, &b->coupled, NLC_MODEL_GONZALEZ_CUITINO);
+    return build(b, COUPLED, &b->coupled);
+}
+
+/* From zeros, or from the displacements given. */
+static nlc_status solve(bench *b, nlc_network *network, const double *overlap, const double *from)
+{
+    for (int64_t c = 0; c < b->n.count; c++) b->start[c] = from ? from[c] : 0;
+    return nlc_solve(network, b->work, b->start, overlap, normals(b), NULL);
 }
 
 static nlc_status run_solve(bench *b)
 {
-    memset(b->start, 0, (size_t)b->n.count * sizeof b->start[0]);
-    return nlc_solve(b->coupled, b->work, b->start, b->n.overlap, normals(b), NULL);
+    return solve(b, b->coupled, b->n.overlap, NULL);
+}
+
+static nlc_status run_solve_again(bench *b)
+{
+    return solve(b, b->coupled, b->n.overlap, b->nonlocal);
+}
+
+static nlc_status run_fixed_point(bench *b)
+{
+    return solve(b, b->fixed_point, b->n.overlap, NULL);
+}
+
+static nlc_status run_loose(bench *b)
+{
+    return solve(b, b->coupled, b->loose, NULL);
+}
+
+static nlc_status run_loose_again(bench *b)
+{
+    return solve(b, b->coupled, b->loose, b->known);
 }
 
 static nlc_status run_assemble(bench *b)
@@ -101,6 +132,10 @@ static const struct {
     {"nlc_solve_hertz", "nlc_solve, Hertz forces only", run_hertz},
     {"nlc_network_init", "nlc_network_init", run_init},
     {"nlc_solve", "nlc_solve from zeros to 1e-8", run_solve},
+    {"nlc_solve_again", "nlc_solve from its result", run_solve_again},
+    {"nlc_solve_fixed_point", "nlc_solve from zeros, fixed point", run_fixed_point},
+    {"nlc_solve_loose", "nlc_solve from zeros, 1 % compressed", run_loose},
+    {"nlc_solve_loose_again", "nlc_solve from its result, 1 % compressed", run_loose_again},
     {"nlc_assemble", "nlc_assemble", run_assemble},
 };
 enum { FUNCTIONS = sizeof functions / sizeof functions[0] };
@@ -111,18 +146,35 @@ static int allocate(bench *b)
 {
     size_t contacts = (size_t)b->n.count + 1;
     b->memory_size = nlc_network_size(&b->particles, b->n.count, NULL);
-    for (int k = 0; k < 2; k++) b->memory[k] = malloc(b->memory_size + 1);
+    for (int k = 0; k < NETWORKS; k++) b->memory[k] = malloc(b->memory_size + 1);
     b->force = calloc(contacts, sizeof(double));
     b->nonlocal = calloc(contacts, sizeof(double));
     b->work = calloc(contacts, sizeof(double));
     b->start = calloc(contacts, sizeof(double));
+    b->loose = calloc(contacts, sizeof(double));
+    b->known = calloc(contacts, sizeof(double));
     b->displacement = calloc(contacts, 2 * sizeof(double));
     b->resultant = calloc((size_t)b->p.count, 3 * sizeof(double));
     b->wall_resultant = calloc((size_t)b->p.wall_count + 1, 3 * sizeof(double));
     bool bad = algorithm1_init(&b->reference, &b->p, &b->n) != 0;
-    bad = bad || !b->memory[0] || !b->memory[1] || !b->force || !b->nonlocal || !b->work || !b->start || !b->displacement ||
+    for (int k = 0; k < NETWORKS; k++) bad = bad || !b->memory[k];
+    bad = bad || !b->loose || !b->known || !b->force || !b->nonlocal || !b->work || !b->start || !b->displacement ||
           !b->resultant || !b->wall_resultant;
     return bad ? fail("", "out of memory") : 0;
+}
+
+/* Everything opened but what lies in a corner of the box with 1 % of its volume, and the solution of that. */
+static nlc_status loosen(bench *b)
+{
+    for (int64_t c = 0; c < b->n.count; c++) {
+        bool inside = true;
+        for (int x = 0; x < 3; x++) {
+            const double edge = b->p.high[x] - b->p.low[x], at = (b->p.x[b->n.i[c]][x] - b->p.low[x]) / edge;
+            inside = inside && at * at * at < 0.01;
+        }
+        b->loose[c] = inside ? b->n.overlap[c] : -fabs(b->n.overlap[c]);
+    }
+    return nlc_solve(b->coupled, b->work, b->known, b->loose, normals(b), NULL);
 }
 
 static int prepare(bench *b, const char *path)
@@ -134,8 +186,10 @@ static int prepare(bench *b, const char *path)
     if (b->n.count == 0) return fail(path, "no contacts");
     b->particles = packing_particles(&b->p);
     if (allocate(b)) return -1;
-    nlc_status status = build(b, 0, &b->coupled, NLC_MODEL_GONZALEZ_CUITINO);
-    if (!status) status = build(b, 1, &b->hertz, NLC_MODEL_HERTZ);
+    nlc_status status = build(b, COUPLED, &b->coupled);
+    if (!status) status = build(b, HERTZ, &b->hertz);
+    if (!status) status = build(b, FIXED_POINT, &b->fixed_point);
+    if (!status) status = loosen(b);
     b->info.struct_size = sizeof b->info;
     if (!status) status = nlc_solve(b->coupled, b->force, b->nonlocal, b->n.overlap, normals(b), &b->info);
     if (status > 0) fprintf(stderr, "bench: warning: %s: %s\n", path, nlc_strerror(status));
@@ -145,7 +199,9 @@ static int prepare(bench *b, const char *path)
 static void release(bench *b)
 {
     algorithm1_free(&b->reference);
-    for (int k = 0; k < 2; k++) free(b->memory[k]);
+    for (int k = 0; k < NETWORKS; k++) free(b->memory[k]);
+    free(b->loose);
+    free(b->known);
     free(b->force);
     free(b->nonlocal);
     free(b->work);
