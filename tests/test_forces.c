@@ -229,6 +229,10 @@ START_TEST(packings_agree_with_long_double)
     scene_init(&s);
     s.options.tolerance = 1e-13;
     scene_packing(&s, packings[_i].name, 0.3);
+    s.options.method = NLC_METHOD_FIXED_POINT; /* Algorithm 1 ... */
+    compare(&s, 1, 1e-12);
+    s.options.method = NLC_METHOD_AUTOMATIC; /* ... and the default */
+    s.network = 0;
     compare(&s, 1, 1e-12);
     const double total = scene_total(&s);
     s.options.model = NLC_MODEL_HERTZ;
@@ -244,6 +248,7 @@ START_TEST(tolerance_is_kept)
 {
     scene s;
     scene_init(&s);
+    s.options.method = _i;
     scene_packing(&s, "b_die125_rd0.80.csv", 0.3);
     for (double tolerance = 1e-2; tolerance > 1e-13; tolerance /= 10) {
         s.options.tolerance = tolerance;
@@ -260,7 +265,8 @@ START_TEST(tolerance_is_kept_near_the_fold)
     const double eps = _i % 2 ? 0.170 : 0.155; /* the fold of the simple cubic crystal of nu = 0.46 is at 0.172 */
     scene s;
     scene_init(&s);
-    s.options.tolerance = _i < 2 ? 1e-4 : 1e-9;
+    s.options.method = _i / 4 ? NLC_METHOD_FIXED_POINT : NLC_METHOD_AUTOMATIC;
+    s.options.tolerance = _i % 4 < 2 ? 1e-4 : 1e-9;
     scene_cell(&s, SIMPLE_CUBIC, 1, 1e6, 0.46, (const double[]){1 - eps, 1 - eps, 1 - eps});
     compare(&s, 1, s.options.tolerance);
     scene_free(&s);
@@ -461,8 +467,8 @@ static Suite *forces(void)
     t = tcase_create("independent solution");
     tcase_set_timeout(t, 60);
     tcase_add_loop_test(t, packings_agree_with_long_double, 0, (int)(sizeof packings / sizeof *packings));
-    tcase_add_test(t, tolerance_is_kept);
-    tcase_add_loop_test(t, tolerance_is_kept_near_the_fold, 0, 4);
+    tcase_add_loop_test(t, tolerance_is_kept, NLC_METHOD_AUTOMATIC, NLC_METHOD_FIXED_POINT + 1);
+    tcase_add_loop_test(t, tolerance_is_kept_near_the_fold, 0, 8);
     tcase_add_loop_test(t, clusters_agree_with_long_double, 0, 12);
     tcase_add_loop_test(t, loose_scenes_agree_with_long_double, 0, 2);
     tcase_add_test(t, what_cannot_move_is_left_out);
