@@ -409,8 +409,9 @@ NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *opti
  * those of the sweep before; here each sweep starts from zero, as [GC] 9 has it.  It estimates its error from the rate at
  * which it converges, gives no bounds of lambda, and where it does not converge returns the best forces met.
  *
- * Contacts of one particle so close together that their circles of contact overlap (R |N_c - N_d| < a_c + a_d) are outside the
- * validity of the model, and can have several solutions; which one is found may depend on nonlocal[]: NLC_WARNING_CLOSE.
+ * Contacts of one particle so close together that their circles of contact overlap (R |N_c - N_d| < a_c + a_d, one that is
+ * pushed open counting with the circle that it would have alone) are outside the validity of the model, and can have several
+ * solutions; which one is found may depend on nonlocal[]: NLC_WARNING_CLOSE.
  * So can contacts further apart where the host makes the coupling stronger than elasticity has it, by options.stiffness well
  * above n_H or a prefactor above 1: there, too, the solution is stable and within the tolerance of an exact one, but it need not
  * be the one connected to zero load.

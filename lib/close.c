@@ -2,11 +2,15 @@
 /* close.c - circles of contact that overlap each other: point forces are no model of these. */
 #include "network.h"
 
-/* Radius of a contact's circle, a^2 = R_eff x with 1/R_eff = 1/R_i + 1/R_j ([GC] 7 and 8), in units of the particle's R. */
+/*
+ * Radius of a contact's circle, a^2 = R_eff x with 1/R_eff = 1/R_i + 1/R_j ([GC] 7 and 8), in units of the particle's R.  One
+ * that its neighbour has pushed open counts with the circle that it would have alone: there might be another solution, in
+ * which it is the neighbour that is open.
+ */
 static double radius_of(const nlc_network *n, int64_t c, int64_t particle, const double *overlap)
 {
     const int64_t other = n->i[c] == particle ? n->j[c] : n->i[c];
-    const double x = overlap[c] + n->current[c], R = n->radius[particle];
+    const double g = n->current[c], x = overlap[c] + (g > 0 ? g : 0), R = n->radius[particle];
     const double S = other < n->particle_count ? n->radius[other] : INFINITY, larger = R > S ? R : S;
     const double quarter = 0.125 * (x + fabs(x)), capped = quarter < R ? quarter : R; /* a beyond 2 R is as good as 2 R */
     /* R_eff / R = 1 / (1 + R/S), by ratios that are at most 1 */
@@ -22,9 +26,8 @@ static double excess(const nlc_block *a, const nlc_block *b, int c, int count)
         const double v = r * r - (x * x + y * y + z * z);
         sum[d] = v + fabs(v);
     }
-    /* a circle of no size is no contact */
-    for (int d = 0; d < count; d++) total += b->force[d] > 0 ? sum[d] : 0;
-    return a->force[c] > 0 ? total : 0;
+    for (int d = 0; d < count; d++) total += sum[d];
+    return total;
 }
 
 /* The force of this block is the radius. */

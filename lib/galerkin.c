@@ -17,7 +17,6 @@
  */
 #include "bound.h"
 #include "iteration.h"
-#include "structs.h"
 
 #define SAFETY 1.5
 #define ALL_FROM 0.35     /* Ritz value from which all directions are kept */
@@ -184,14 +183,6 @@ static void solve(nlc_network *n, const double *overlap, const double *normal, d
     nlc_iteration_end(&q);
 }
 
-static void start_over(nlc_outcome *out)
-{
-    const int64_t sweeps = out->info.sweeps, blocks = out->info.blocks;
-    *out = (nlc_outcome){NLC_OK, false, nlc_new_info()};
-    out->info.sweeps = sweeps;
-    out->info.blocks = blocks;
-}
-
 /*
  * Where that neither converges nor finds anything to weaken, the iterate has lost its way between several solutions: once more
  * from nothing, with the load applied in steps.
@@ -203,7 +194,7 @@ void nlc_galerkin(nlc_network *n, const double *overlap, const double *normal, n
     if (out->status != NLC_WARNING_NOT_CONVERGED || out->info.sweeps >= most) return;
     for (int64_t c = 0; c < n->contact_count; c++) n->current[c] = 0;
     for (int step = 1; step <= LOAD_STEPS && out->status >= 0; step++) {
-        start_over(out);
+        nlc_start_over(out);
         n->settings.max_sweeps = out->info.sweeps + LOAD_SWEEPS < most && step < LOAD_STEPS ? out->info.sweeps + LOAD_SWEEPS : most;
         solve(n, overlap, normal, (double)step / LOAD_STEPS, out);
     }

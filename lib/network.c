@@ -79,7 +79,7 @@ static size_t lay_out(nlc_network *n, char *memory)
     lay_out_part(n, memory, &used);
     n->entry = take(memory, &used, 2 * n->contact_count, sizeof *n->entry);
     n->side = take(memory, &used, 2 * n->contact_count, sizeof *n->side);
-    return used == SIZE_MAX ? 0 : used;
+    return used > PTRDIFF_MAX ? 0 : used; /* no object is larger */
 }
 
 /* Counts and the size they lead to.  NLC_ERROR_COUNT where that overflows. */

@@ -120,6 +120,9 @@ typedef struct nlc_outcome {
     nlc_info info;
 } nlc_outcome;
 
+/* solve.c: forgets all but the work done. */
+void nlc_start_over(nlc_outcome *outcome);
+
 /* fixed_point.c: [GC] Algorithm 1 from network->current. */
 void nlc_fixed_point(nlc_network *network, const double *overlap, const double *normal, nlc_outcome *outcome);
 

@@ -73,14 +73,12 @@ static void name_in_whole(const nlc_network *n, nlc_outcome *out)
     out->info.left_out = n->contact_count - n->part->contact_count;
 }
 
-/* All but the sweeps.  Without coupling lambda is 0. */
-static void start_over(nlc_outcome *out, bool uncoupled)
+void nlc_start_over(nlc_outcome *out)
 {
     const int64_t sweeps = out->info.sweeps, blocks = out->info.blocks;
     *out = (nlc_outcome){NLC_OK, false, nlc_new_info()};
     out->info.sweeps = sweeps;
     out->info.blocks = blocks;
-    if (uncoupled) out->info.lambda_lower = out->info.lambda_upper = 0;
 }
 
 static void warn_if_close(const nlc_network *n, const double *overlap, const double *normal, nlc_outcome *out)
@@ -99,8 +97,11 @@ static void by_parts(nlc_network *n, const double *overlap, const double *normal
     }
     while (more > 0) {
         nlc_build_part(n, overlap, normal);
-        start_over(out, n->part->contact_count == 0);
-        if (n->part->contact_count > 0) nlc_galerkin(n->part, n->part_overlap, n->part_normal, out);
+        nlc_start_over(out);
+        if (n->part->contact_count > 0)
+            nlc_galerkin(n->part, n->part_overlap, n->part_normal, out);
+        else
+            out->info.lambda_lower = out->info.lambda_upper = 0; /* nothing is coupled */
         out->in_part = out->status < 0;
         if (out->in_part) break;
         nlc_collect_part(n);
@@ -135,7 +136,7 @@ static void iterate(nlc_network *n, const double *overlap, const double *normal,
 static void uncoupled(nlc_network *n, nlc_outcome *out)
 {
     memset(n->current, 0, (size_t)n->contact_count * sizeof *n->current);
-    start_over(out, true);
+    out->info.lambda_lower = out->info.lambda_upper = 0;
     out->info.left_out = n->contact_count;
 }
 

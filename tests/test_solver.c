@@ -146,6 +146,47 @@ START_TEST(crowded_sphere)
 }
 END_TEST
 
+/*
+ * Pairs of contacts 1e-3 to 0.1 rad apart, of which one may be nearly open: the error there can exceed the largest residual over
+ * 1 - lambda, which the energy norm sees.  (Circles overlap, so another solution may be found: these are passed over.)
+ */
+START_TEST(close_pairs)
+{
+    int solved = 0;
+    for (int seed = 1; seed < 400; seed++) {
+        rng g = {(uint64_t)seed};
+        scene s;
+        exact e;
+        scene_init(&s);
+        const int32_t m = scene_material(&s, 1, rng_uniform(&g, 0, 0.5)), rigid = scene_material(&s, INFINITY, 0);
+        scene_particle(&s, 1, m);
+        const int32_t wall = 1 + scene_wall(&s, rigid);
+        const int pairs = 2 + (int)rng_below(&g, 4);
+        for (int k = 0; k < pairs; k++) {
+            double n[3], d[3], overlap = rng_uniform(&g, -1e-3, 1e-2);
+            rng_unit(&g, n);
+            scene_contact(&s, 0, wall, overlap, n[0], n[1], n[2]);
+            const double apart = pow(10, -rng_uniform(&g, 1, 3));
+            overlap = rng_uniform(&g, -1e-3, 1e-2);
+            for (int x = 0; x < 3; x++) d[x] = n[x] + apart * rng_uniform(&g, -1, 1);
+            scene_contact(&s, 0, wall, overlap, d[0], d[1], d[2]);
+        }
+        exact_init(&e, &s);
+        const bool stable = exact_move(&e, 1);
+        const result r = solve_at(&s, stable ? &e : 0, 1, 1e-6);
+        if (stable && (r.status & ~NLC_WARNING_CLOSE) == NLC_OK) {
+            ck_assert(r.error < 1e-3 || r.status == NLC_WARNING_CLOSE);
+            ck_assert_msg(r.error <= 1e-6 || r.error > 1e-3, "seed %d: error %g", seed, r.error);
+            solved += r.error <= 1e-6;
+        }
+        exact_free(&e);
+        scene_free(&s);
+    }
+    if (verbose()) printf("%d scenes of close pairs solved\n", solved);
+    ck_assert_int_ge(solved, 150);
+}
+END_TEST
+
 /* Scenes whose stable branch ends: cells, noisy crystals, a packing of almost incompressible grains. */
 #define ENDING 8
 static const char *ending(scene *s, int which, double *end)
@@ -288,6 +329,7 @@ int main(void)
     tcase_add_loop_test(t, cells, 0, 3);
     tcase_add_loop_test(t, crystals, 0, 3);
     tcase_add_loop_test(t, crowded_sphere, 0, 3);
+    tcase_add_test(t, close_pairs);
     tcase_add_test(t, slow_compression);
     tcase_add_loop_test(t, packings, 0, 2);
     tcase_add_loop_test(t, beyond_the_end, 0, ENDING);
