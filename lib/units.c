@@ -40,6 +40,7 @@ void nlc_iteration_start(nlc_iteration *q, nlc_network *n, const double *overlap
         const double a = n->largest[n->i[c]], b = n->largest[n->j[c]], top = a > b ? a : b;
         n->current[c] *= q->per_overlap;
         n->force[c] = nlc_scaled_force(q, c);
+        n->spare[2][c] = nlc_scaled_overlap(q, c); /* nlc_weaken comes back to it */
         n->floor[c] = SLOPE_FLOOR * nlc_scaled_stiffness(q, c) * sqrt(top > 1e-12 ? top : 1e-12);
     }
 }

@@ -18,7 +18,7 @@
 #define RESTART_STEP 0.3
 #define GROWTH 4.0     /* of the residual: then back to the best, with shorter steps */
 #define STEPS 240
-#define SECOND_START 80 /* steps after which it begins again from Hertz: the first start may have been a bad one */
+#define PATIENCE 25 /* steps without the residual falling tenfold after which it begins again from Hertz */
 #define START_CAP 5.0 /* of the start, in units of the largest overlap nearby, which counts as no less than SMALLEST */
 #define SMALLEST 0.05
 
@@ -150,29 +150,71 @@ static void take_columns(anderson *h, nlc_network *n)
         }
 }
 
+/* The iterate, capped. */
+static void start_from_iterate(const nlc_iteration *q, double *x)
+{
+    for (int64_t c = 0; c < q->n->contact_count; c++) {
+        const double v = nlc_scaled_overlap(q, c), nearby = nlc_overlap_nearby(q, c);
+        const double cap = START_CAP * (nearby > SMALLEST ? nearby : SMALLEST);
+        x[c] = v > cap ? cap : v < -NLC_FARTHEST ? -NLC_FARTHEST : v;
+    }
+}
+
+/* Hertz's overlaps; returns the sum of their squares. */
+static double start_from_overlaps(const nlc_iteration *q, double *x)
+{
+    double sum = 0;
+    for (int64_t c = 0; c < q->n->contact_count; c++) {
+        x[c] = q->overlap[c] * q->load;
+        sum += x[c] > 0 ? x[c] * x[c] : 0;
+    }
+    return sum;
+}
+
+/*
+ * y becomes the residual; returns the sum of its squares.  How far a contact is open makes no difference to any force: one that
+ * opens or closes moves as far beyond 0 as it was before it, so that no gap, however wide, looks like a residual.
+ */
+static double residual(double *x, double *y, int64_t count)
+{
+    double norm = 0;
+    for (int64_t c = 0; c < count; c++) {
+        if (y[c] > 0 && x[c] < -y[c]) x[c] = -y[c];
+        if (x[c] > 0 && y[c] < -x[c]) y[c] = -x[c];
+        y[c] = x[c] <= 0 && y[c] <= 0 ? 0 : y[c] - x[c];
+        norm += y[c] * y[c];
+    }
+    return norm;
+}
+
+/*
+ * It begins where the caller said, unless the residual there shows that this is nothing to go on from; then at the iterate,
+ * unless that has run away; then with Hertz's overlaps, at the latest when another start has led nowhere.
+ */
+enum { GIVEN, ITERATE, HERTZ };
+
+static bool is_good_start(int start, double norm, double applied)
+{
+    return start == HERTZ || norm <= (start == GIVEN ? 0.01 : 1) * applied;
+}
+
 void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
 {
     nlc_network *n = q->n;
     const int64_t count = n->contact_count;
-    double *x = n->spare[0], *y = n->spare[1], *best = n->spare[2];
+    double *x = n->spare[0], *y = n->spare[1], *best = n->spare[2], *iterate = n->spare[3], mark = INFINITY;
+    const double applied = start_from_overlaps(q, x);
+    int start = GIVEN, waited = 0;
     anderson h;
+    start_from_iterate(q, iterate);
     take_columns(&h, n);
-    h.old_x = n->spare[3];
+    h.old_x = iterate; /* until then: there are no differences before the first step */
     h.old_r = n->floor;
     reset(&h, FIRST_STEP);
-    for (int64_t c = 0; c < count; c++) {
-        const double v = nlc_scaled_overlap(q, c), nearby = nlc_overlap_nearby(q, c);
-        const double cap = START_CAP * (nearby > SMALLEST ? nearby : SMALLEST);
-        best[c] = x[c] = v > cap ? cap : v < -NLC_FARTHEST ? -NLC_FARTHEST : v;
-    }
+    memcpy(x, best, (size_t)count * sizeof *x); /* that is the start given */
     out->status = NLC_WARNING_NOT_CONVERGED;
     for (int k = 0; k < STEPS && out->info.sweeps < n->settings.max_sweeps; k++) {
-        if (k == SECOND_START) {
-            for (int64_t c = 0; c < count; c++) x[c] = q->overlap[c] * q->load;
-            reset(&h, FIRST_STEP);
-        }
         const double change = weakened_map(q, x, y, out);
-        double norm = 0;
         if (out->status < 0) return;
         out->status = NLC_WARNING_NOT_CONVERGED;
         out->info.residual = change / NLC_MARGIN;
@@ -180,9 +222,17 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
             out->status = NLC_OK;
             break;
         }
-        for (int64_t c = 0; c < count; c++) {
-            y[c] = x[c] <= 0 && y[c] <= 0 ? 0 : y[c] - x[c]; /* now the residual; open contacts have none */
-            norm += y[c] * y[c];
+        const double norm = residual(x, y, count);
+        waited = norm < 0.01 * mark ? 0 : waited + 1;
+        mark = waited == 0 ? norm : mark;
+        if ((!h.pending && !is_good_start(start, norm, applied)) || (waited > PATIENCE && start < HERTZ)) {
+            start = start == GIVEN && !h.pending ? ITERATE : HERTZ;
+            if (start == ITERATE) memcpy(x, iterate, (size_t)count * sizeof *x);
+            else start_from_overlaps(q, x);
+            reset(&h, FIRST_STEP);
+            waited = 0;
+            mark = INFINITY;
+            continue;
         }
         if (norm > GROWTH * GROWTH * h.smallest) {
             memcpy(x, best, (size_t)count * sizeof *x);

@@ -256,9 +256,8 @@ START_TEST(beyond_the_end)
             printf("%s, load %g: status %d %d %d, %d %d %d sweeps, %jd blocks, coupling %.4f, weakened %jd, moves %.1f h, start %.1e\n",
                    name, factors[l], r.status, moved.status, again.status, (int)r.info.sweeps, (int)moved.info.sweeps,
                    (int)again.info.sweeps, (intmax_t)r.info.blocks, r.info.coupling, (intmax_t)r.info.weakened, step / h, other);
-        if (_i >= 6 && factors[l] > 1) { /* packings: some of these states take hundreds of sweeps to converge, and say so */
-            ck_assert((r.status & moved.status & again.status & NLC_WARNING_WEAKENED) && r.info.coupling < 1);
-            if (_i == 6 && factors[l] < 1.2) ck_assert(r.info.residual <= 1e-3 && step <= 50 * h);
+        if (_i == 7 && factors[l] > 2) { /* the packing's overlaps times 100: grains inside each other, several solutions */
+            ck_assert(r.status & moved.status & again.status & NLC_WARNING_WEAKENED);
             continue;
         }
         const nlc_status expected = factors[l] < 1 ? NLC_OK : NLC_WARNING_WEAKENED;
@@ -266,7 +265,8 @@ START_TEST(beyond_the_end)
         ck_assert_int_eq(moved.status & ~NLC_WARNING_CLOSE, expected);
         ck_assert_int_eq(again.status & ~NLC_WARNING_CLOSE, expected);
         ck_assert(r.info.residual <= 1e-10 && step <= 50 * h && other <= 2e-10);
-        ck_assert_int_le(r.info.sweeps, 100);
+        ck_assert_int_le(r.info.sweeps, _i < 6 ? 60 : 120);
+        ck_assert_int_le(moved.info.sweeps, _i < 6 ? 30 : 90); /* from where it was */
         ck_assert(factors[l] < 1 ? r.info.coupling == 1 : r.info.coupling < 1 && r.info.weakest_particle >= 0);
     }
     free(kept);
