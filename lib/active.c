@@ -11,8 +11,6 @@
  */
 #define NEAR 0.2
 
-enum { OUT = 0, IN = 1, ALONE = 2 };
-
 static bool yields(const nlc_network *n, int64_t body)
 {
     return body < n->particle_count && n->scale[body] > 0;
@@ -47,14 +45,14 @@ static int64_t count_marks(nlc_network *n)
     int64_t count = 0;
     for (int64_t k = 0; k < n->particle_count; k++) n->degree[k] = 0;
     for (int64_t c = 0; c < n->contact_count; c++) {
-        if (n->mark[c] == OUT) continue;
+        if (n->mark[c] == NLC_OUT) continue;
         if (yields(n, n->i[c])) n->degree[n->i[c]]++;
         if (yields(n, n->j[c])) n->degree[n->j[c]]++;
     }
     for (int64_t c = 0; c < n->contact_count; c++) {
-        if (n->mark[c] == OUT) continue;
+        if (n->mark[c] == NLC_OUT) continue;
         const bool moved = (yields(n, n->i[c]) && n->degree[n->i[c]] > 1) || (yields(n, n->j[c]) && n->degree[n->j[c]] > 1);
-        n->mark[c] = moved ? IN : ALONE;
+        n->mark[c] = !moved ? NLC_ALONE : n->mark[c] == NLC_NEW ? NLC_NEW : NLC_IN;
         count += moved;
     }
     return count;
@@ -67,7 +65,7 @@ int64_t nlc_mark_active(nlc_network *n, const double *overlap)
     for (int64_t c = 0; c < n->contact_count; c++) {
         const double x = overlap[c] + n->current[c], top = largest_nearby(n, c);
         const bool unknown = nlc_abs_bits(n->current[c]) == 0;
-        n->mark[c] = x > 0 || overlap[c] > 0 || (cold ? is_within_reach(n, c) : unknown ? top > 0 : x > -NEAR * top) ? IN : OUT;
+        n->mark[c] = x > 0 || overlap[c] > 0 || (cold ? is_within_reach(n, c) : unknown ? top > 0 : x > -NEAR * top) ? NLC_IN : NLC_OUT;
     }
     return count_marks(n);
 }
@@ -77,14 +75,14 @@ static int32_t place_of(nlc_network *n, int64_t body)
 {
     nlc_network *p = n->part;
     if (body >= n->particle_count) return -1;
-    if (n->place[body] < 0) {
-        const int64_t k = p->particle_count++;
-        n->place[body] = (int32_t)k;
-        p->radius[k] = n->radius[body];
-        p->material[k] = n->material[body];
-        p->scale[k] = n->scale[body];
-    }
-    return n->place[body];
+    const int32_t place = n->place[body];
+    if (place >= 0 && place < p->particle_count && n->body[place] == body) return place;
+    const int64_t k = p->particle_count++;
+    p->radius[k] = n->radius[body];
+    p->material[k] = n->material[body];
+    p->scale[k] = n->scale[body];
+    n->body[k] = (int32_t)body;
+    return n->place[body] = (int32_t)k;
 }
 
 static void add_contact(nlc_network *n, int64_t c, double overlap, const double *normal)
@@ -99,26 +97,31 @@ static void add_contact(nlc_network *n, int64_t c, double overlap, const double 
     p->stiffness[m] = n->stiffness[c];
     p->current[m] = n->current[c];
     p->side[2 * m] = p->side[2 * m + 1] = 0;
-    n->origin[m] = c;
     n->part_overlap[m] = overlap;
     memcpy(n->part_normal + 3 * m, normal, 3 * sizeof *normal);
 }
 
-void nlc_build_part(nlc_network *n, const double *overlap, const double *normal)
+void nlc_set_rest(nlc_network *n, const double *overlap)
+{
+    count_marks(n);
+    for (int64_t k = 0; k < n->particle_count; k++) n->weakening[k] = 1;
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        if (nlc_is_in(n, c)) continue;
+        n->force[c] = n->mark[c] == NLC_ALONE ? nlc_law(n->stiffness[c], overlap[c]) : 0;
+        n->current[c] = 0;
+    }
+}
+
+void nlc_build_part(nlc_network *n, const int64_t *origin, int64_t count, const double *overlap, const double *normal)
 {
     nlc_network *p = n->part;
-    count_marks(n);
     p->settings = n->settings;
     p->stiffness_exponent = n->stiffness_exponent;
     p->coupling_exponent = n->coupling_exponent;
     p->particle_count = p->contact_count = 0;
     p->self_contacts = false;
-    for (int64_t k = 0; k < n->particle_count; k++) n->place[k] = -1;
-    for (int64_t c = 0; c < n->contact_count; c++) {
-        n->force[c] = n->mark[c] == ALONE ? nlc_law(n->stiffness[c], overlap[c]) : 0;
-        if (n->mark[c] == IN) add_contact(n, c, overlap[c], normal + 3 * c);
-    }
-    for (int64_t m = 0; m < p->contact_count; m++) { /* the wall comes behind the particles, whose number is known now */
+    for (int64_t m = 0; m < count; m++) add_contact(n, origin[m], overlap[origin[m]], normal + 3 * origin[m]);
+    for (int64_t m = 0; m < count; m++) { /* the wall comes behind the particles, whose number is known now */
         if (p->i[m] < 0) p->i[m] = (int32_t)p->particle_count;
         if (p->j[m] < 0) p->j[m] = (int32_t)p->particle_count;
     }
@@ -127,15 +130,16 @@ void nlc_build_part(nlc_network *n, const double *overlap, const double *normal)
     nlc_build_adjacency(p);
 }
 
-void nlc_collect_part(nlc_network *n)
+void nlc_collect_part(nlc_network *n, const int64_t *origin)
 {
     const nlc_network *p = n->part;
-    for (int64_t c = 0; c < n->contact_count; c++) n->current[c] = 0;
     for (int64_t m = 0; m < p->contact_count; m++) {
-        const int64_t c = n->origin[m];
+        const int64_t c = origin[m];
         n->current[c] = p->current[m];
         n->force[c] = nlc_law(n->stiffness[c], n->part_overlap[m] + p->current[m]);
+        n->mark[c] = NLC_IN;
     }
+    for (int64_t k = 0; k < p->particle_count; k++) n->weakening[n->body[k]] = p->weakening[k];
 }
 
 static void put(nlc_block *b, const nlc_network *n, const double *normal, int64_t e)
@@ -165,7 +169,6 @@ static bool move_rest(nlc_network *n, const double *normal, int64_t k)
 {
     const int64_t end = n->start[k + 1];
     const nlc_kernel kernel = nlc_kernel_of(n, k);
-    const double weakening = n->place[k] >= 0 ? n->part->weakening[n->place[k]] : 1;
     int64_t target[NLC_BLOCK], source[NLC_BLOCK], p = n->start[k];
     nlc_block a, b;
     bool distinct = true;
@@ -173,7 +176,7 @@ static bool move_rest(nlc_network *n, const double *normal, int64_t k)
         int64_t q = n->start[k];
         for (take(&a, source, n, normal, end, &q, true); a.count > 0; take(&a, source, n, normal, end, &q, true))
             distinct &= n->settings.model->between(&a, &b, &kernel);
-        for (int d = 0; d < b.count; d++) n->current[target[d] >> 1] += weakening * b.displacement[d];
+        for (int d = 0; d < b.count; d++) n->current[target[d] >> 1] += n->weakening[k] * b.displacement[d];
     }
     return distinct;
 }
@@ -199,9 +202,16 @@ int64_t nlc_check_rest(nlc_network *n, const double *overlap, const double *norm
         *culprit = nlc_find_coincident(n, normal, k);
         return -1;
     }
-    for (int64_t c = 0; c < n->contact_count; c++) touching += n->mark[c] == OUT && overlap[c] + n->current[c] > 0;
-    if (touching == 0) return 0;
-    for (int64_t c = 0; c < n->contact_count; c++)
-        if (n->mark[c] == OUT && (overlap[c] + n->current[c] > 0 || largest_nearby(n, c) > 0)) n->mark[c] = IN;
+    for (int64_t k = 0; k < n->particle_count; k++) n->changed[k] = 0;
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        if (n->mark[c] != NLC_OUT || overlap[c] + n->current[c] <= 0) continue;
+        touching++;
+        if (n->i[c] < n->particle_count) n->changed[n->i[c]] = 1;
+        if (n->j[c] < n->particle_count) n->changed[n->j[c]] = 1;
+    }
+    for (int64_t c = 0; c < n->contact_count && touching > 0; c++) {
+        const bool beside = (n->i[c] < n->particle_count && n->changed[n->i[c]]) || (n->j[c] < n->particle_count && n->changed[n->j[c]]);
+        if (n->mark[c] == NLC_OUT && beside && (overlap[c] + n->current[c] > 0 || largest_nearby(n, c) > 0)) n->mark[c] = NLC_NEW;
+    }
     return touching;
 }

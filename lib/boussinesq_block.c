@@ -134,3 +134,8 @@ double nlc_case_one_squares(nlc_block *a, const nlc_kernel *kernel)
     for (int c = 0; c < n; c++) total += sum[c] * a->force[c];
     return total;
 }
+
+double nlc_case_one_most(const nlc_kernel *kernel, double distance)
+{
+    return fabs(kernel->c[0]) / distance + fabs(kernel->c[1]) + 2 * fabs(kernel->c[2]); /* |N_c - N_d| is at most 2 */
+}

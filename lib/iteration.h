@@ -42,7 +42,9 @@ static inline double nlc_scaled_force(const nlc_iteration *q, int64_t c)
     return nlc_law(nlc_scaled_stiffness(q, c), nlc_scaled_overlap(q, c));
 }
 
-/* units.c: sets the units, the start (network->force from network->current, which it scales) and the floor of the slopes. */
+/* units.c: sets the units. */
+void nlc_iteration_units(nlc_iteration *q, nlc_network *network, const double *overlap, const double *normal, double part);
+/* Sets the units, the start (network->force from network->current, which it scales) and the floor of the slopes. */
 void nlc_iteration_start(nlc_iteration *q, nlc_network *network, const double *overlap, const double *normal, double part);
 /* Largest overlap on the two bodies of a contact: the floor of the slopes tells. */
 double nlc_overlap_nearby(const nlc_iteration *q, int64_t c);

@@ -41,6 +41,8 @@ typedef struct nlc_model {
     /* Coefficients of contact c with those before it; sum of their squares over all pairs, times both forces. */
     void (*coefficients)(double *coefficient, const nlc_block *a, int c, const nlc_kernel *kernel);
     double (*squares)(nlc_block *a, const nlc_kernel *kernel);
+    /* No coefficient of directions that are at least so far apart is larger. */
+    double (*most)(const nlc_kernel *kernel, double distance);
 } nlc_model;
 
 extern const nlc_model nlc_models[];
@@ -53,5 +55,6 @@ bool nlc_case_one_within(nlc_block *a, const nlc_kernel *kernel);
 bool nlc_case_one_between(nlc_block *a, nlc_block *b, const nlc_kernel *kernel);
 void nlc_case_one_coefficients(double *coefficient, const nlc_block *a, int c, const nlc_kernel *kernel);
 double nlc_case_one_squares(nlc_block *a, const nlc_kernel *kernel);
+double nlc_case_one_most(const nlc_kernel *kernel, double distance);
 
 #endif

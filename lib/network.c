@@ -2,6 +2,7 @@
 /* network.c - building the network in the caller's memory. */
 #include "network.h"
 
+#include "active.h"
 #include "hertz.h"
 #include "particles.h"
 #include "structs.h"
@@ -25,7 +26,9 @@ static void lay_out_part(nlc_network *n, char *memory, size_t *used)
     n->part = take(memory, used, 1, sizeof *n->part);
     n->mark = take(memory, used, n->contact_count, sizeof *n->mark);
     n->degree = take(memory, used, n->particle_count, sizeof *n->degree);
+    n->cluster = take(memory, used, n->particle_count, sizeof *n->cluster);
     n->place = take(memory, used, n->particle_count, sizeof *n->place);
+    n->body = take(memory, used, n->particle_count, sizeof *n->body);
     n->origin = take(memory, used, n->contact_count, sizeof *n->origin);
     n->part_overlap = take(memory, used, n->contact_count, sizeof *n->part_overlap);
     n->part_normal = take(memory, used, n->contact_count, 3 * sizeof *n->part_normal);
@@ -33,6 +36,7 @@ static void lay_out_part(nlc_network *n, char *memory, size_t *used)
     p.radius = take(memory, used, n->particle_count, sizeof *p.radius);
     p.scale = take(memory, used, n->particle_count, sizeof *p.scale);
     p.largest = take(memory, used, n->particle_count + 1, sizeof *p.largest);
+    p.weakening = take(memory, used, n->particle_count, sizeof *p.weakening);
     p.material = take(memory, used, n->particle_count + 1, sizeof *p.material);
     p.i = take(memory, used, n->contact_count, sizeof *p.i);
     p.j = take(memory, used, n->contact_count, sizeof *p.j);
@@ -189,6 +193,8 @@ static void build(nlc_network *n, const nlc_particles *p, const int32_t *i, cons
     }
     if (n->body_count > 0) memset(n->largest, 0, (size_t)n->body_count * sizeof *n->largest);
     nlc_build_adjacency(n);
+    for (int64_t k = 0; k < n->particle_count; k++) n->place[k] = -1;
+    n->connected = nlc_is_connected(n);
 }
 
 /* All that can be wrong with the arguments of nlc_network_init; nothing is written but *n, *settings and *culprit. */

@@ -30,6 +30,7 @@ struct nlc_network {
     int64_t particle_count, body_count, contact_count, material_count;
     nlc_settings settings;
     bool self_contacts;     /* some contact has i = j */
+    bool connected;         /* all contacts are one cluster, see clusters.c */
     int scale_exponent;     /* no U reaches 2^ this */
     int coupling_exponent;  /* nor does any particle's kernel constant 2^ this */
     int stiffness_exponent; /* nor any stiffness */
@@ -62,8 +63,10 @@ struct nlc_network {
     nlc_network *part;
     unsigned char *mark;  /* [contacts] */
     int32_t *degree;      /* [particles] marked contacts */
-    int32_t *place;       /* [particles] number in the part, or -1 */
-    int64_t *origin;      /* [contacts of the part] number of the contact */
+    int32_t *cluster;     /* [particles] another one of the same cluster, itself if it is the first */
+    int64_t *origin;      /* [marked contacts] cluster by cluster */
+    int32_t *place;       /* [particles] number in the part, if body[place] is the particle */
+    int32_t *body;        /* [particles of the part] number of the particle */
     double *part_overlap; /* [contacts of the part] */
     double *part_normal;  /* [contacts of the part][3] */
 };
@@ -116,7 +119,6 @@ nlc_kernel nlc_kernel_of(const nlc_network *network, int64_t particle);
 /* What an iteration leaves behind: the nonlocal displacement is in network->current. */
 typedef struct nlc_outcome {
     nlc_status status;
-    bool in_part; /* an error's culprit is a contact of the part */
     nlc_info info;
 } nlc_outcome;
 
@@ -128,6 +130,9 @@ void nlc_fixed_point(nlc_network *network, const double *overlap, const double *
 
 /* galerkin.c: the default. */
 void nlc_galerkin(nlc_network *network, const double *overlap, const double *normal, nlc_outcome *outcome);
+
+/* loose.c: whether all forces are those of Hertz to the tolerance.  If so, sets residual, worst_contact and the bounds of lambda. */
+bool nlc_is_loose(nlc_network *network, const double *overlap, const double *normal, nlc_outcome *outcome);
 
 /* close.c: whether somewhere the circles of two contacts with network->current overlap. */
 bool nlc_circles_overlap(const nlc_network *network, const double *overlap, const double *normal);

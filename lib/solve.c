@@ -35,19 +35,21 @@ static void largest_overlaps(nlc_network *n, const double *overlap)
 }
 
 /*
- * The caller's displacements as a start, capped where overlap + displacement would exceed 3 times the largest overlap on the
+ * The caller's displacement as a start, capped where overlap + displacement would exceed 3 times the largest overlap on the
  * two particles: that is where the stable branch ends for equal forces, and beyond it lies the unstable one.
  */
+static double start_of(const nlc_network *n, int64_t c, const double *overlap, const double *nonlocal)
+{
+    const double a = n->largest[n->i[c]], b = n->largest[n->j[c]], g = nonlocal ? nonlocal[c] : 0;
+    double cap = 3 * (a > b ? a : b) - overlap[c];
+    cap = cap > 0 ? cap : 0;
+    return g > cap ? cap : g < -cap ? -cap : g;
+}
+
 static void start_from(nlc_network *n, const double *overlap, const double *nonlocal)
 {
     largest_overlaps(n, overlap);
-    for (int64_t c = 0; c < n->contact_count; c++) {
-        double a = n->largest[n->i[c]], b = n->largest[n->j[c]];
-        double cap = 3 * (a > b ? a : b) - overlap[c];
-        cap = cap > 0 ? cap : 0;
-        double g = nonlocal ? nonlocal[c] : 0;
-        n->current[c] = g > cap ? cap : g < -cap ? -cap : g;
-    }
+    for (int64_t c = 0; c < n->contact_count; c++) n->current[c] = start_of(n, c, overlap, nonlocal);
 }
 
 static bool all_zero(const double *values, int64_t count)
@@ -57,26 +59,10 @@ static bool all_zero(const double *values, int64_t count)
     return true;
 }
 
-/* The part's numbers of contacts and particles in those of the whole. */
-static void name_in_whole(const nlc_network *n, nlc_outcome *out)
-{
-    const int64_t critical = out->info.critical_particle, weakest = out->info.weakest_particle;
-    if (out->status < 0 && n->part->contact_count > 0 && out->in_part && out->info.culprit >= 0)
-        out->info.culprit = n->origin[out->info.culprit];
-    if (out->info.worst_contact >= 0) out->info.worst_contact = n->origin[out->info.worst_contact];
-    out->info.critical_particle = out->info.weakest_particle = -1;
-    for (int64_t k = 0; k < n->particle_count; k++) {
-        if (n->place[k] < 0) continue;
-        if (n->place[k] == critical) out->info.critical_particle = k;
-        if (n->place[k] == weakest) out->info.weakest_particle = k;
-    }
-    out->info.left_out = n->contact_count - n->part->contact_count;
-}
-
 void nlc_start_over(nlc_outcome *out)
 {
     const int64_t sweeps = out->info.sweeps, blocks = out->info.blocks;
-    *out = (nlc_outcome){NLC_OK, false, nlc_new_info()};
+    *out = (nlc_outcome){NLC_OK, nlc_new_info()};
     out->info.sweeps = sweeps;
     out->info.blocks = blocks;
 }
@@ -86,41 +72,108 @@ static void warn_if_close(const nlc_network *n, const double *overlap, const dou
     if (out->status >= 0 && nlc_circles_overlap(n, overlap, normal)) out->status |= NLC_WARNING_CLOSE;
 }
 
-/* Solves for the contacts that may have a force, until it turns out that no other one has. */
-static void by_parts(nlc_network *n, const double *overlap, const double *normal, nlc_outcome *out)
+static int64_t named(int64_t in_part, const int64_t *contact)
 {
-    int64_t more = 1;
-    if (nlc_mark_active(n, overlap) > n->contact_count / 4 * 3) { /* a copy of them would cost more than it saves */
-        nlc_galerkin(n, overlap, normal, out);
-        warn_if_close(n, overlap, normal, out);
+    return in_part < 0 ? -1 : contact[in_part];
+}
+
+static int64_t named_particle(const nlc_network *n, int64_t in_part)
+{
+    return in_part < 0 ? -1 : n->body[in_part];
+}
+
+/* Adds what a cluster came to: the worst counts; of sweeps the most, since clusters are solved side by side. */
+static void merge(nlc_outcome *out, const nlc_network *n, const nlc_outcome *part, const int64_t *origin)
+{
+    nlc_info *a = &out->info;
+    const nlc_info *b = &part->info;
+    out->status |= part->status;
+    a->clusters++;
+    a->blocks += b->blocks;
+    a->weakened += b->weakened;
+    if (b->sweeps > a->sweeps) a->sweeps = b->sweeps;
+    if (b->lambda_lower > a->lambda_lower) a->lambda_lower = b->lambda_lower;
+    if (a->worst_contact < 0 || b->residual > a->residual) {
+        a->residual = b->residual;
+        a->worst_contact = named(b->worst_contact, origin);
+    }
+    if (a->clusters == 1 || b->lambda_upper > a->lambda_upper) {
+        a->lambda_upper = b->lambda_upper;
+        a->critical_particle = named_particle(n, b->critical_particle);
+    }
+    if (b->coupling < a->coupling) {
+        a->coupling = b->coupling;
+        a->weakest_particle = named_particle(n, b->weakest_particle);
+    }
+}
+
+/*
+ * One cluster.  After others have been found to touch it goes on from where it is if some of them have joined it, and else starts
+ * anew from where it did: a cluster does not learn what happens in others.
+ */
+static void solve_cluster(nlc_network *n, const int64_t *origin, int64_t count, const double *overlap, const double *normal,
+                          const double *nonlocal, nlc_outcome *out)
+{
+    nlc_outcome part = {NLC_OK, nlc_new_info()};
+    bool joined = false;
+    for (int64_t m = 0; m < count; m++) joined |= n->mark[origin[m]] == NLC_NEW;
+    for (int64_t m = 0; m < count && !joined; m++) n->current[origin[m]] = start_of(n, origin[m], overlap, nonlocal);
+    nlc_build_part(n, origin, count, overlap, normal);
+    nlc_galerkin(n->part, n->part_overlap, n->part_normal, &part);
+    warn_if_close(n->part, n->part_overlap, n->part_normal, &part);
+    if (part.status < 0) {
+        out->status = part.status;
+        out->info.culprit = named(part.info.culprit, origin);
         return;
     }
-    while (more > 0) {
-        nlc_build_part(n, overlap, normal);
-        nlc_start_over(out);
-        if (n->part->contact_count > 0)
-            nlc_galerkin(n->part, n->part_overlap, n->part_normal, out);
-        else
-            out->info.lambda_lower = out->info.lambda_upper = 0; /* nothing is coupled */
-        out->in_part = out->status < 0;
-        if (out->in_part) break;
-        nlc_collect_part(n);
+    merge(out, n, &part, origin);
+    nlc_collect_part(n, origin);
+}
+
+/* Each cluster of contacts that may have a force, until it turns out that no other contact has. */
+static void by_clusters(nlc_network *n, const double *overlap, const double *normal, const double *nonlocal, nlc_outcome *out)
+{
+    int64_t before = 0;
+    for (int64_t more = 1; more > 0;) {
+        const int64_t blocks = out->info.blocks;
+        *out = (nlc_outcome){NLC_OK, nlc_new_info()};
+        out->info.blocks = blocks;
+        nlc_set_rest(n, overlap);
+        const int64_t count = nlc_sort_clusters(n);
+        out->info.left_out = n->contact_count - count;
+        if (count == 0) out->info.lambda_lower = out->info.lambda_upper = 0; /* nothing is coupled */
+        for (int64_t m = 0, end; m < count && out->status >= 0; m = end) {
+            end = nlc_cluster_end(n, m, count);
+            solve_cluster(n, n->origin + m, end - m, overlap, normal, nonlocal, out);
+        }
+        out->info.sweeps += before;
+        before = out->info.sweeps;
+        if (out->status < 0) return;
         more = nlc_check_rest(n, overlap, normal, &out->info.culprit);
         if (more < 0) out->status = NLC_ERROR_COINCIDENT;
-        if (more > 0 && out->info.sweeps >= n->settings.max_sweeps) {
+        if (more > 0 && before >= n->settings.max_sweeps) {
             out->status |= NLC_WARNING_NOT_CONVERGED;
-            break;
+            return;
         }
     }
-    warn_if_close(n->part, n->part_overlap, n->part_normal, out); /* a pair on its own is close to nothing */
-    name_in_whole(n, out);
+}
+
+static void accelerated(nlc_network *n, const double *overlap, const double *normal, const double *nonlocal, nlc_outcome *out)
+{
+    if (nlc_mark_active(n, overlap) <= n->contact_count / 4 * 3 || !n->connected) {
+        by_clusters(n, overlap, normal, nonlocal, out);
+        return;
+    }
+    nlc_galerkin(n, overlap, normal, out); /* a copy of so many would cost more than it saves */
+    warn_if_close(n, overlap, normal, out);
+    out->info.clusters = 1;
 }
 
 static void iterate(nlc_network *n, const double *overlap, const double *normal, const double *nonlocal, nlc_outcome *out)
 {
     start_from(n, overlap, nonlocal);
     if (n->settings.method != NLC_METHOD_FIXED_POINT) {
-        by_parts(n, overlap, normal, out);
+        accelerated(n, overlap, normal, nonlocal, out);
         return;
     }
     nlc_fixed_point(n, overlap, normal, out);
@@ -132,12 +185,16 @@ static void iterate(nlc_network *n, const double *overlap, const double *normal,
     warn_if_close(n, overlap, normal, out);
 }
 
-/* Hertz. */
-static void uncoupled(nlc_network *n, nlc_outcome *out)
+static void all_hertz(nlc_network *n, nlc_outcome *out)
 {
     memset(n->current, 0, (size_t)n->contact_count * sizeof *n->current);
-    out->info.lambda_lower = out->info.lambda_upper = 0;
     out->info.left_out = n->contact_count;
+}
+
+static void uncoupled(nlc_network *n, nlc_outcome *out)
+{
+    all_hertz(n, out);
+    out->info.lambda_lower = out->info.lambda_upper = 0;
 }
 
 nlc_status nlc_solve(nlc_network *network, double *NLC_RESTRICT force, double *NLC_RESTRICT nonlocal,
@@ -152,14 +209,16 @@ nlc_status nlc_solve(nlc_network *network, double *NLC_RESTRICT force, double *N
     if (!nonlocal) return nlc_error(info, NLC_ERROR_NULL, 2);
     if (!overlap) return nlc_error(info, NLC_ERROR_NULL, 3);
     if (!normal) return nlc_error(info, NLC_ERROR_NULL, 4);
-    nlc_outcome out = {NLC_OK, false, nlc_new_info()};
+    nlc_outcome out = {NLC_OK, nlc_new_info()};
     out.status = check(network, overlap, normal, nonlocal, &out.info.culprit);
     if (out.status != NLC_OK) return nlc_error(info, out.status, out.info.culprit);
 
-    if (network->settings.model->within)
-        iterate(network, overlap, normal, nonlocal, &out);
-    else
+    if (!network->settings.model->within)
         uncoupled(network, &out);
+    else if (network->settings.method == NLC_METHOD_AUTOMATIC && nlc_is_loose(network, overlap, normal, &out))
+        all_hertz(network, &out);
+    else
+        iterate(network, overlap, normal, nonlocal, &out);
     if (out.status < 0) return nlc_error(info, out.status, out.info.culprit);
 
     for (int64_t c = 0; c < count; c++) {

@@ -113,7 +113,7 @@ typedef struct call {
 static bool begin(call *k, nlc_network *n, const double *out, const double *in, const double *force, const double *normal,
                   nlc_status bad_in, nlc_info *info)
 {
-    k->o = (nlc_outcome){NLC_ERROR_STRUCT_SIZE, false, nlc_new_info()};
+    k->o = (nlc_outcome){NLC_ERROR_STRUCT_SIZE, nlc_new_info()};
     if (!nlc_info_is_valid(info)) return false;
     k->o.status = NLC_OK;
     if (!n) {
@@ -199,7 +199,7 @@ nlc_status nlc_tangent_bound(nlc_network *network, double *NLC_RESTRICT stiffnes
     if (!stiffness) return nlc_error(info, NLC_ERROR_NULL, 1);
     if (network->contact_count > 0 && !force) return nlc_error(info, NLC_ERROR_NULL, 2);
     if (network->contact_count > 0 && !normal) return nlc_error(info, NLC_ERROR_NULL, 3);
-    nlc_outcome o = {NLC_OK, false, nlc_new_info()};
+    nlc_outcome o = {NLC_OK, nlc_new_info()};
     o.status = check(network, 0, force, normal, NLC_OK, &o.info.culprit);
     if (o.status != NLC_OK) return nlc_report(info, &o.info, o.status);
 

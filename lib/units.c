@@ -27,13 +27,18 @@ static void largest_overlaps(nlc_iteration *q)
     }
 }
 
-void nlc_iteration_start(nlc_iteration *q, nlc_network *n, const double *overlap, const double *normal, double part)
+void nlc_iteration_units(nlc_iteration *q, nlc_network *n, const double *overlap, const double *normal, double part)
 {
     *q = (nlc_iteration){.n = n, .overlap = overlap, .normal = normal, .directions = 1};
     q->per_overlap = per_unit_of(nlc_largest_magnitude(overlap, n->contact_count), 2); /* its root is a power of 2, too */
     q->per_stiffness = per_unit_of(nlc_largest_magnitude(n->stiffness, n->contact_count), 1);
     q->load = q->per_overlap * part;
     n->unit = sqrt(1 / q->per_overlap) / q->per_stiffness;
+}
+
+void nlc_iteration_start(nlc_iteration *q, nlc_network *n, const double *overlap, const double *normal, double part)
+{
+    nlc_iteration_units(q, n, overlap, normal, part);
     largest_overlaps(q);
     for (int64_t k = 0; k < n->particle_count; k++) n->weakening[k] = 1;
     for (int64_t c = 0; c < n->contact_count; c++) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* test_invariance.c - what must not change the forces: names, order, orientation, units, history; and Newton's third law. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -516,6 +517,100 @@ START_TEST(contacts_close_together)
 }
 END_TEST
 
+/* A copy of a scene's contacts and particles behind it; walls stay where they are, and the first copy's are the second one's, too. */
+static void double_scene(scene *to, const scene *from)
+{
+    const int32_t n = (int32_t)from->particles;
+    for (int64_t m = 0; m < from->materials; m++) scene_material(to, from->rows[m].young, from->rows[m].poisson);
+    for (int32_t k = 0; k < 2 * n; k++) scene_particle(to, from->radius[k % n], from->material[k % n]);
+    for (int64_t w = 0; w < from->walls; w++) scene_wall(to, from->wall_material[w]);
+    for (int copy = 0; copy < 2; copy++)
+        for (int64_t c = 0; c < from->contacts; c++) {
+            const double *v = from->normal + 3 * c;
+            const int32_t i = from->i[c] < n ? from->i[c] + copy * n : from->i[c] + n;
+            const int32_t j = from->j[c] < n ? from->j[c] + copy * n : from->j[c] + n;
+            scene_contact(to, i, j, from->overlap[c], v[0], v[1], v[2]);
+        }
+}
+
+/*
+ * Two packings between the same rigid walls: whatever the second one does (all gaps, loose, dense, beyond its end of the stable
+ * branch), not one bit of the first one's forces changes.  Loose ones fall into clusters of their own.
+ */
+START_TEST(unconnected_parts_do_not_learn_of_each_other)
+{
+    const double load[] = {-1, 1e-3, 0.05, 0.5, 1, 2, 1};
+    scene one, s;
+    scene_init(&one);
+    scene_init(&s);
+    scene_packing(&one, "b_die125_rd0.70.csv", 0.3);
+    double top = 0;
+    for (int64_t c = 0; c < one.contacts; c++) top = fmax(top, one.overlap[c]);
+    for (int64_t c = 0; c < one.contacts; c++) one.overlap[c] -= 0.3 * _i * top; /* most are open then */
+    double_scene(&s, &one);
+    const int64_t n = one.contacts;
+    double *kept = malloc(2 * (size_t)n * sizeof *kept);
+    int64_t most = 0;
+    for (int l = 0; l < 7; l++) {
+        nlc_info info = {.struct_size = sizeof info};
+        for (int64_t c = 0; c < n; c++) s.overlap[n + c] = load[l] < 0 ? -fabs(one.overlap[c]) : load[l] * one.overlap[c];
+        for (int64_t c = 0; c < n && l == 6; c++) s.overlap[n + c] += (double)(c % 5 - 2) * 0.1 * top;
+        if (s.nonlocal) memset(s.nonlocal, 0, 2 * (size_t)n * sizeof *s.nonlocal);
+        for (int warm = 0; warm < 2; warm++) { /* once it is known what does not come to touch there are more clusters */
+            const nlc_status status = scene_solve(&s, &info);
+            ck_assert_int_eq(status & ~(NLC_WARNING_CLOSE | NLC_WARNING_WEAKENED), NLC_OK);
+            if (l == 0) memcpy(kept + warm * n, s.force, (size_t)n * sizeof *kept);
+            for (int64_t c = 0; c < n; c++) nlc_assert_same(s.force[c], kept[warm * n + c]);
+            most = info.clusters > most ? info.clusters : most;
+            if (verbose())
+                printf("load %g: %jd clusters, %jd sweeps, %jd left out, status %d\n", load[l], (intmax_t)info.clusters,
+                       (intmax_t)info.sweeps, (intmax_t)info.left_out, status);
+        }
+    }
+    ck_assert_int_ge(most, _i < 2 ? 2 : 5);
+    free(kept);
+    scene_free(&one);
+    scene_free(&s);
+}
+END_TEST
+
+/*
+ * Stiff grains and a coarse tolerance: it can be proved beforehand that Hertz is good enough, and no sweep is made.  The bound is
+ * kept, and not given where it does not hold: the forces are within the tolerance of exact ones at every load.
+ */
+START_TEST(hertz_where_that_is_good_enough)
+{
+    int skipped = 0, solved = 0;
+    scene s;
+    scene_init(&s);
+    scene_packing(&s, _i ? "c_hydrogel514_strain13.csv" : "b_die125_rd0.80.csv", 0.3);
+    long double *exact = malloc((size_t)s.contacts * sizeof *exact);
+    double *overlap = malloc((size_t)s.contacts * sizeof *overlap);
+    memcpy(overlap, s.overlap, (size_t)s.contacts * sizeof *overlap);
+    s.options.tolerance = 1e-3;
+    for (double load = 1; load > 1e-12; load *= 0.3) {
+        nlc_info info = {.struct_size = sizeof info};
+        for (int64_t c = 0; c < s.contacts; c++) s.overlap[c] = overlap[c] > 0 ? load * overlap[c] : overlap[c];
+        ck_assert(scene_oracle(&s, 1, exact) < 1e-15L);
+        if (s.nonlocal) memset(s.nonlocal, 0, (size_t)s.contacts * sizeof *s.nonlocal);
+        ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+        const double error = scene_error(&s, s.force, exact);
+        ck_assert(error <= 1e-3 && error <= info.residual * (1 + 1e-9) + 1e-15);
+        skipped += info.left_out == s.contacts;
+        solved += info.sweeps > 0;
+        if (info.left_out < s.contacts) continue;
+        ck_assert_int_eq(info.sweeps, 0);
+        ck_assert(info.lambda_upper < 0.5 && info.residual <= 1e-3);
+        for (int64_t c = 0; c < s.contacts; c++)
+            nlc_assert_rel(s.force[c], nlc_hertz_force((double)scene_stiffness(&s, c), s.overlap[c]), 1e-15);
+        if (verbose()) printf("load %g: error %.1e, bound %.1e, lambda <= %.1e\n", load, error, info.residual, info.lambda_upper);
+    }
+    ck_assert(skipped >= 5 && solved >= 5);
+    free(exact), free(overlap);
+    scene_free(&s);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("invariance");
@@ -538,6 +633,8 @@ int main(void)
     tcase_add_test(t, unreachable_tolerance_is_said);
     tcase_add_test(t, gaps_and_extreme_overlaps);
     tcase_add_test(t, contacts_close_together);
+    tcase_add_loop_test(t, unconnected_parts_do_not_learn_of_each_other, 0, 3);
+    tcase_add_loop_test(t, hertz_where_that_is_good_enough, 0, 2);
     suite_add_tcase(suite, t);
     return run_suite(suite);
 }
