@@ -24,13 +24,13 @@ static nlc_status check(const nlc_network *n, const double *overlap, const doubl
 /* Largest overlap on each particle, 0 at least. */
 static void largest_overlaps(nlc_network *n, const double *overlap)
 {
-    for (int64_t k = 0; k < n->particle_count; k++) {
-        double largest = 0;
-        for (int64_t p = n->start[k]; p < n->start[k + 1]; p++) {
-            double x = overlap[n->entry[p] >> 1];
-            largest = x > largest ? x : largest;
-        }
-        n->largest[k] = largest;
+    for (int64_t k = 0; k < n->particle_count; k++) n->largest[k] = 0;
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        const double x = overlap[c];
+        if (x <= 0) continue;
+        const int64_t i = n->i[c], j = n->j[c];
+        if (i < n->particle_count && x > n->largest[i]) n->largest[i] = x;
+        if (j < n->particle_count && x > n->largest[j]) n->largest[j] = x;
     }
 }
 
@@ -40,7 +40,9 @@ static void largest_overlaps(nlc_network *n, const double *overlap)
  */
 static double start_of(const nlc_network *n, int64_t c, const double *overlap, const double *nonlocal)
 {
-    const double a = n->largest[n->i[c]], b = n->largest[n->j[c]], g = nonlocal ? nonlocal[c] : 0;
+    const double g = nonlocal ? nonlocal[c] : 0;
+    if (nlc_abs_bits(g) == 0) return 0;
+    const double a = n->largest[n->i[c]], b = n->largest[n->j[c]];
     double cap = 3 * (a > b ? a : b) - overlap[c];
     cap = cap > 0 ? cap : 0;
     return g > cap ? cap : g < -cap ? -cap : g;
