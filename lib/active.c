@@ -142,40 +142,39 @@ void nlc_collect_part(nlc_network *n, const int64_t *origin)
     for (int64_t k = 0; k < p->particle_count; k++) n->weakening[n->body[k]] = p->weakening[k];
 }
 
-static void put(nlc_block *b, const nlc_network *n, const double *normal, int64_t e)
+static void put(nlc_block *b, const nlc_network *n, const double *normal, int64_t e, double U)
 {
     const double out = nlc_outward(e), *v = normal + 3 * (e >> 1);
     b->x[b->count] = out * v[0];
     b->y[b->count] = out * v[1];
     b->z[b->count] = out * v[2];
-    b->force[b->count] = n->force[e >> 1];
+    b->force[b->count] = U * n->force[e >> 1];
     b->displacement[b->count++] = 0;
 }
 
 /* The next sides of a particle, from *place on, that do (or do not) carry a force. */
-static void take(nlc_block *b, int64_t *entry, const nlc_network *n, const double *normal, int64_t end, int64_t *place, bool force)
+static void take(nlc_block *b, int64_t *entry, const nlc_network *n, const double *normal, int64_t k, int64_t *place, bool force)
 {
+    const int64_t end = n->start[k + 1];
     b->count = 0;
     for (; *place < end && b->count < NLC_BLOCK; ++*place) {
         const int64_t e = nlc_side_at(n, normal, *place);
         if ((n->force[e >> 1] > 0) != force) continue;
         entry[b->count] = e;
-        put(b, n, normal, e);
+        put(b, n, normal, e, nlc_scale_of(n, k));
     }
 }
 
 /* Adds to the displacement of one particle's contacts without force. */
 static bool move_rest(nlc_network *n, const double *normal, int64_t k)
 {
-    const int64_t end = n->start[k + 1];
-    const nlc_kernel kernel = nlc_kernel_of(n, k);
     int64_t target[NLC_BLOCK], source[NLC_BLOCK], p = n->start[k];
     nlc_block a, b;
     bool distinct = true;
-    for (take(&b, target, n, normal, end, &p, false); b.count > 0; take(&b, target, n, normal, end, &p, false)) {
+    for (take(&b, target, n, normal, k, &p, false); b.count > 0; take(&b, target, n, normal, k, &p, false)) {
         int64_t q = n->start[k];
-        for (take(&a, source, n, normal, end, &q, true); a.count > 0; take(&a, source, n, normal, end, &q, true))
-            distinct &= n->settings.model->between(&a, &b, &kernel);
+        for (take(&a, source, n, normal, k, &q, true); a.count > 0; take(&a, source, n, normal, k, &q, true))
+            distinct &= n->settings.model->between(&a, &b, nlc_kernel_of(n, k));
         for (int d = 0; d < b.count; d++) n->current[target[d] >> 1] += n->weakening[k] * b.displacement[d];
     }
     return distinct;

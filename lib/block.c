@@ -46,8 +46,8 @@ double nlc_block_norm(const nlc_network *n, const double *normal, int64_t partic
     int64_t entry[NLC_BLOCK];
     if (!gather_active(&b, entry, n, normal, particle)) return INFINITY;
     if (b.count < 2) return 0;
-    const nlc_kernel kernel = nlc_kernel_of(n, particle);
-    return sqrt(2 * n->settings.model->squares(&b, &kernel) * (b.count - 1) / b.count);
+    const double squares = n->settings.model->squares(&b, nlc_kernel_of(n, particle));
+    return nlc_scale_of(n, particle) * sqrt(2 * squares * (b.count - 1) / b.count);
 }
 
 /* The block as a dense matrix, both triangles; returns its rows, or -1 if it does not fit. */
@@ -64,12 +64,12 @@ static int dense(double *B, const nlc_network *n, const double *normal, int64_t 
         rows = row[a] + 1;
         root[a] = sqrt(self ? n->slope[entry[a] >> 1] : b.force[a]);
     }
-    const nlc_kernel kernel = nlc_kernel_of(n, particle);
+    const double U = nlc_scale_of(n, particle);
     memset(B, 0, (size_t)(rows * rows) * sizeof *B);
     for (int a = 1; a < b.count; a++) {
-        n->settings.model->coefficients(coefficient, &b, a, &kernel);
+        n->settings.model->coefficients(coefficient, &b, a, nlc_kernel_of(n, particle));
         for (int d = 0; d < a; d++) {
-            const double v = coefficient[d] * root[a] * root[d];
+            const double v = U * coefficient[d] * root[a] * root[d];
             B[row[a] * rows + row[d]] += v;
             B[row[d] * rows + row[a]] += v;
         }

@@ -68,8 +68,7 @@ static bool find_displacements(const nlc_iteration *q)
         if (n->scale[k] <= 0 || sum <= 0) continue;
         const double t = nearest(n, q->normal, k);
         if (4 * (deepest / n->radius[k]) >= t) return false; /* circles of contact, a^2 <= R gamma, might overlap; or t = 0 */
-        const nlc_kernel kernel = nlc_kernel_of(n, k);
-        n->norm[k] = n->settings.model->most(&kernel, sqrt(t));
+        n->norm[k] = nlc_scale_of(n, k) * n->settings.model->most(nlc_kernel_of(n, k), sqrt(t));
         n->bound[k] = DOUBT * sum * n->norm[k];
     }
     return true;

@@ -2,8 +2,8 @@
 /*
  * model.h - what the driver sees of a force model: a row of a table.
  *
- * A model's displacement on a particle of radius R and modulus E is U times a function of the directions,
- * U = (1+nu) / (4 pi R E), linear in the forces.
+ * A model's displacement on a particle of radius R and modulus E is U times a function of the directions and Poisson's ratio,
+ * U = (1+nu) / (4 pi R E).  The functions here are given forces times U.
  */
 #ifndef NLC_MODEL_H
 #define NLC_MODEL_H
@@ -17,11 +17,11 @@ typedef struct nlc_block {
     int count;
     /* [count], with room for a copy behind it */
     double x[2 * NLC_BLOCK], y[2 * NLC_BLOCK], z[2 * NLC_BLOCK]; /* outward unit normals */
-    double force[2 * NLC_BLOCK];
+    double force[2 * NLC_BLOCK]; /* times U */
     double displacement[NLC_BLOCK]; /* added to, > 0 outward */
 } nlc_block;
 
-/* Constants of a kernel, prepared once per material and multiplied by a particle's U before use. */
+/* Constants of a kernel, prepared once per material. */
 #define NLC_KERNEL_SIZE 3
 typedef struct nlc_kernel {
     double c[NLC_KERNEL_SIZE];

@@ -113,8 +113,16 @@ int64_t nlc_find_coincident(const nlc_network *network, const double *normal, in
 /* network.c: start and entry from i and j. */
 void nlc_build_adjacency(nlc_network *network);
 
-/* A particle's kernel, in units of network->unit. */
-nlc_kernel nlc_kernel_of(const nlc_network *network, int64_t particle);
+/* A particle's kernel, and its U in units of network->unit. */
+static inline const nlc_kernel *nlc_kernel_of(const nlc_network *n, int64_t particle)
+{
+    return &n->kernel[n->material[particle]];
+}
+
+static inline double nlc_scale_of(const nlc_network *n, int64_t particle)
+{
+    return n->scale[particle] * n->unit;
+}
 
 /* What an iteration leaves behind: the nonlocal displacement is in network->current. */
 typedef struct nlc_outcome {

@@ -8,8 +8,10 @@
 #include "vector.h"
 
 /* Fills a block from a particle's list; returns the largest magnitude among the forces. */
-static double gather(nlc_block *b, const nlc_network *n, const double *force, const double *normal, int64_t begin, int64_t end)
+static double gather(nlc_block *b, const nlc_network *n, const double *force, const double *normal, int64_t particle,
+                     int64_t begin, int64_t end)
 {
+    const double U = nlc_scale_of(n, particle);
     double largest = 0;
     b->count = (int)(end - begin);
     for (int d = 0; d < b->count; d++) {
@@ -18,7 +20,7 @@ static double gather(nlc_block *b, const nlc_network *n, const double *force, co
         b->x[d] = out * normal[3 * c];
         b->y[d] = out * normal[3 * c + 1];
         b->z[d] = out * normal[3 * c + 2];
-        b->force[d] = force[c];
+        b->force[d] = U * force[c];
         b->displacement[d] = 0;
         double p = fabs(force[c]);
         largest = p > largest ? p : largest;
@@ -36,28 +38,22 @@ static void add(const nlc_block *b, nlc_network *n, const double *normal, int64_
     for (int d = 0; d < b->count; d++) n->side[nlc_side_at(n, normal, begin + d)] += b->displacement[d];
 }
 
-nlc_kernel nlc_kernel_of(const nlc_network *n, int64_t particle)
-{
-    nlc_kernel k = n->kernel[n->material[particle]];
-    for (int c = 0; c < NLC_KERNEL_SIZE; c++) k.c[c] *= n->scale[particle] * n->unit;
-    return k;
-}
-
 /* More contacts than a block holds: each block with itself, then with those behind it. */
-static bool displace_in_blocks(nlc_network *n, const double *force, const double *normal, int64_t begin, int64_t end,
-                               const nlc_kernel *kernel, double *largest)
+static bool displace_in_blocks(nlc_network *n, const double *force, const double *normal, int64_t particle, double *largest)
 {
     const nlc_model *model = n->settings.model;
+    const nlc_kernel *kernel = nlc_kernel_of(n, particle);
+    const int64_t begin = n->start[particle], end = n->start[particle + 1];
     nlc_block a, b;
     bool distinct = true;
     for (int64_t p = begin; p < end; p++) n->side[n->entry[p]] = 0;
     for (int64_t p = begin; p < end; p += NLC_BLOCK) {
         const int64_t p_end = end - p > NLC_BLOCK ? p + NLC_BLOCK : end;
-        const double f = gather(&a, n, force, normal, p, p_end);
+        const double f = gather(&a, n, force, normal, particle, p, p_end);
         *largest = f > *largest ? f : *largest;
         distinct &= model->within(&a, kernel);
         for (int64_t q = p_end; q < end; q += NLC_BLOCK) {
-            gather(&b, n, force, normal, q, end - q > NLC_BLOCK ? q + NLC_BLOCK : end);
+            gather(&b, n, force, normal, particle, q, end - q > NLC_BLOCK ? q + NLC_BLOCK : end);
             distinct &= model->between(&a, &b, kernel);
             add(&b, n, normal, q);
         }
@@ -87,13 +83,11 @@ bool nlc_displace_particle(nlc_network *n, const double *force, const double *no
         for (int64_t p = begin; p < end; p++) n->side[n->entry[p]] = 0;
         largest = largest_force(n, force, begin, end);
     } else if (end - begin > NLC_BLOCK) {
-        const nlc_kernel kernel = nlc_kernel_of(n, particle);
-        distinct = displace_in_blocks(n, force, normal, begin, end, &kernel, &largest);
+        distinct = displace_in_blocks(n, force, normal, particle, &largest);
     } else if (end > begin) {
-        const nlc_kernel kernel = nlc_kernel_of(n, particle);
         nlc_block a;
-        largest = gather(&a, n, force, normal, begin, end);
-        distinct = model->within(&a, &kernel);
+        largest = gather(&a, n, force, normal, particle, begin, end);
+        distinct = model->within(&a, nlc_kernel_of(n, particle));
         store(&a, n, normal, begin);
     }
     n->largest[particle] = largest;
