@@ -30,11 +30,7 @@ double nlc_nonlocal_displacement(double force, double theta, double R, double E,
 {
     if (!nlc_is_finite(force) || !nlc_is_positive_or_infinite(R) || !nlc_is_material(E, nu)) return NAN;
     if (!nlc_is_positive(theta) || theta > pi) return NAN;
-    nlc_scaled s = nlc_split(theta);
-    /* below 2^-30 the sine is its argument to the last bit, and theta/2 might be subnormal */
-    if (s.e > -30) s = nlc_split(2 * sin(theta / 2));
-    s.e -= 1;
-    return case_one(force, s, R, E, nu);
+    return case_one(force, nlc_half_sine(theta), R, E, nu);
 }
 
 double nlc_nonlocal_displacement_between(double force, const double n_c[3], const double n_d[3], double R, double E, double nu)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
-/* hertz.h - the arguments that the local law's functions share. */
+/* hertz.h - the arguments that the scalar functions share. */
 #ifndef NLC_HERTZ_H
 #define NLC_HERTZ_H
 
@@ -37,6 +37,16 @@ static inline nlc_scaled nlc_curvature(double R)
     q.m = 1 / s.m;
     q.e = -s.e;
     return q;
+}
+
+/* sin(theta/2), 0 < theta <= pi */
+static inline nlc_scaled nlc_half_sine(double theta)
+{
+    nlc_scaled s = nlc_split(theta);
+    /* below 2^-30 the sine is its argument to the last bit, and theta/2 might be subnormal */
+    if (s.e > -30) s = nlc_split(2 * sin(theta / 2));
+    s.e -= 1;
+    return s;
 }
 
 #endif

@@ -119,7 +119,7 @@ static inline double nlc_join(double m, int e)
     return s.m * nlc_pow2(-1022) * nlc_pow2(e + 1022);
 }
 
-/* a + b, both >= 0 */
+/* a + b.  Where signs differ m may be as small as 2^-55. */
 static inline nlc_scaled nlc_sum(nlc_scaled a, nlc_scaled b)
 {
     if (nlc_abs_bits(a.m) == 0) return b;
@@ -129,6 +129,24 @@ static inline nlc_scaled nlc_sum(nlc_scaled a, nlc_scaled b)
     if (e - a.e <= 200) r.m += a.m * nlc_pow2(a.e - e);
     if (e - b.e <= 200) r.m += b.m * nlc_pow2(b.e - e);
     return r;
+}
+
+static inline nlc_scaled nlc_times(nlc_scaled a, nlc_scaled b)
+{
+    return (nlc_scaled){a.m * b.m, a.e + b.e};
+}
+
+/* a / b, where 0 / 0 is 0; b may be 0 only if a is */
+static inline nlc_scaled nlc_over(nlc_scaled a, nlc_scaled b)
+{
+    return (nlc_scaled){a.m / (b.m + 1e-290), a.e - b.e};
+}
+
+/* Square root, a >= 0 */
+static inline nlc_scaled nlc_root(nlc_scaled a)
+{
+    const int odd = a.e & 1;
+    return (nlc_scaled){sqrt(odd ? 2 * a.m : a.m), (a.e - odd) / 2};
 }
 
 #endif
