@@ -140,7 +140,7 @@ NLC_API const char *nlc_version(void);
  * outside the domain.  Poisson's ratio: 0 <= nu <= 0.5, on a rigid side any number.
  *
  * Accuracy: worst error found in units in the last place (ulp) of the exact result, over wide random and systematic sweeps
- * of every argument including subnormal numbers and by climbing towards worse arguments (tests/test_scalar.c).
+ * of every argument including subnormal numbers and by climbing towards worse arguments (tests/test_scalar.c, test_love.c).
  */
 
 /*
@@ -241,6 +241,112 @@ NLC_API double nlc_nonlocal_displacement_between(double force, const double n_c[
  */
 NLC_API double nlc_half_space_displacement(double force, const double n_k[3], const double n_c[3], const double r_kc[3],
                                            double E, double nu, double prefactor);
+
+/*
+ * nlc_point_displacement, nlc_point_stress, nlc_point_traction - Case I: the fields that go with nlc_nonlocal_displacement on
+ * the whole surface of the sphere.                                                                       [GC] 2, 20-23
+ *
+ * The sphere is cut out of a half-space under Boussinesq's point force and touches its surface there.  Origin at the force,
+ * axis z into the body (the direction of a compressive force), radius r from the axis: the point at the angle theta is
+ * (z, r) = (2 R s^2, R sin(theta)), s = sin(theta/2), and the outward normal there is n = (-cos(theta), sin(theta)).
+ * Displacements are relative to points at infinity; stresses are positive in tension.
+ *
+ * nlc_point_displacement - the displacement.                                                                 [GC] 21
+ *
+ *     u_z = (1+nu) P / (4 pi R E) [ 2(1-nu)/s + s ]
+ *     u_r = (1+nu) P / (4 pi R E) cos(theta/2) [ 1 - (1-2nu) / (s (1+s)) ]
+ *
+ * (cos(theta/2) / (s (1+s)) is [GC]'s 2 (1-s) / sin(theta) without its 0/0 at theta = pi.)  n.u is nlc_nonlocal_displacement.
+ *
+ * displacement   [2] out: u_z, u_r [m]; both NaN if an argument is outside its domain
+ * force          P, compressive > 0, any sign [N];  theta   0 < theta <= pi [rad]
+ * R, E           radius and Young's modulus [m, Pa]; INFINITY gives 0;  nu   Poisson's ratio
+ * Worst error 10 ulp: of u_z, and of u_r's sum of the absolute terms.
+ */
+NLC_API void nlc_point_displacement(double displacement[2], double force, double theta, double R, double E, double nu);
+
+/*
+ * nlc_point_stress - Case I: the stress at the sphere's surface, Boussinesq's.                               [GC] 22
+ *
+ *     s_zz = -3 P s / (8 pi R^2)
+ *     s_rr =    P   / (8 pi R^2) [ (1-2nu) / (s^2 (1+s)) - 3 cos^2(theta/2) / s ]
+ *     s_tt =    P   / (8 pi R^2) (1-2nu) [ 1/s - 1 / (s^2 (1+s)) ]         (hoop stress: not in [GC]; Boussinesq's, too)
+ *     s_rz = -3 P cos(theta/2) / (8 pi R^2)
+ *
+ * stress         [4] out: s_zz, s_rr, s_tt, s_rz [Pa], coordinates as above; all NaN if an argument is outside its domain
+ * force, theta   as above;  R   radius [m]; INFINITY gives 0;  nu   Poisson's ratio in [0, 0.5]
+ * Worst error 12 ulp of the sum of the absolute terms.
+ */
+NLC_API void nlc_point_stress(double stress[4], double force, double theta, double R, double nu);
+
+/*
+ * nlc_point_traction - Case I: the traction that holds the sphere against the force.                      [GC] 2, 23
+ *
+ *     t_z = -3 P s / (8 pi R^2)
+ *     t_r =    P   / (8 pi R^2) [ 2 (1-2nu) / (tan(theta/2) (1+s)) - 3 cos(theta/2) ]
+ *
+ * This is t = n.sigma, by which the removed rest of the half-space acts on the sphere: its resultant over the sphere is -P
+ * along z.  It departs from [GC] twice.  Their Eq. 20 says q = -n.sigma, but the z component of their 2 and 23 is that of
+ * +n.sigma, which is also what can hold the sphere.  Their radial component is misprinted, P/(8 pi R^2) [ (1-2nu) / (2
+ * tan(theta/2) (1+s)) - (3/2) cos(theta/2) ]: a quarter of the first term and half of the second one.  Their stresses (22,
+ * which are right) give the one above; the resultant does not show it.
+ *
+ * traction       [2] out: t_z, t_r [Pa], coordinates as above; both NaN if an argument is outside its domain
+ * force, theta, R, nu   as for nlc_point_stress
+ * Worst error 11 ulp: of t_z, and of t_r's sum of the absolute terms.
+ */
+NLC_API void nlc_point_traction(double traction[2], double force, double theta, double R, double nu);
+
+/*
+ * nlc_love_displacement - Case II: Love's displacement in a half-space under Hertz pressure on a circle.     [GC] 26, 28-29
+ *
+ *     u_z =  (1+nu) / (2 pi E) [ 2(1-nu) V - z dV/dz ]
+ *     u_r = -(1+nu) / (2 pi E) [ (1-2nu) dchi/dr + z dV/dr ]
+ *
+ * with the potentials V and chi of the pressure (3P / 2 pi a^2) sqrt(1 - r^2/a^2).  They are evaluated in another form than
+ * printed one, which loses all digits for small circles and near the axis.  Origin at the centre of the circle, z into the
+ * body, r from the axis.
+ *
+ * displacement   [2] out: u_z, u_r [m]; both NaN if an argument is outside its domain
+ * force          P, compressive > 0, any sign [N]
+ * radius         a >= 0, finite [m]; 0 is Boussinesq's point force
+ * r, z           the point, >= 0, finite [m]; not both 0 if the radius is
+ * E, nu          Young's modulus [Pa] (INFINITY gives 0), Poisson's ratio
+ * On the surface inside the circle u_z is nlc_contact_displacement.  Worst error 27 ulp: of u_z, and of u_r's sum of the two
+ * absolute terms.
+ */
+NLC_API void nlc_love_displacement(double displacement[2], double force, double radius, double r, double z, double E, double nu);
+
+/*
+ * nlc_love_stress - Case II: Love's stress in a half-space under Hertz pressure on a circle.                 [GC] 27-29
+ *
+ *     s_zz = 1/(2 pi) [ dV/dz - z d2V/dz2 ]                      s_rz = -z/(2 pi) d2V/drdz
+ *     s_rr = 1/(2 pi) [ 2 nu dV/dz - (1-2nu) d2chi/dr2   - z d2V/dr2   ]
+ *     s_tt = 1/(2 pi) [ 2 nu dV/dz - (1-2nu) (dchi/dr)/r - z (dV/dr)/r ]                (hoop stress: not in [GC])
+ *
+ * stress   [4] out: s_zz, s_rr, s_tt, s_rz [Pa], tension > 0; all NaN if an argument is outside its domain
+ * force, radius, r, z   as for nlc_love_displacement;  nu   Poisson's ratio in [0, 0.5]
+ * Worst error 28 ulp: of s_zz and s_rz; of s_rr and s_tt in units of the sum of their value at nu = 1/2 and of
+ * (1-2nu)/(2 pi) (dchi/dr)/r, which is by how much (1-2nu) moves them at most.
+ */
+NLC_API void nlc_love_stress(double stress[4], double force, double radius, double r, double z, double nu);
+
+/*
+ * nlc_love_nonlocal_displacement - Case II: normal displacement of a sphere's surface caused by Hertz pressure elsewhere on
+ * it.                                                                                                     [GC] 26, 28-29
+ *
+ * The counterpart of nlc_nonlocal_displacement for a circle of radius a: w = n.u, Love's displacement at (z, r) = (2 R s^2,
+ * R sin(theta)), s = sin(theta/2), along the sphere's normal n = (-cos(theta), sin(theta)).  It tends to Case I as a -> 0:
+ * for a < R s they differ by less than (a/2Rs)^2/2 of the sum of Case I's absolute terms.
+ *
+ * force    P, compressive > 0, any sign [N]
+ * radius   a >= 0, finite [m]; 0 is nlc_nonlocal_displacement
+ * theta    0 <= theta <= pi [rad], 0 only if a > 0.  Where the circle reaches the point, about theta < a/R, this is still
+ *          Love's value there (finite, and no longer the displacement of a sphere)
+ * R, E     radius and Young's modulus [m, Pa]; INFINITY gives 0, as for nlc_nonlocal_displacement;  nu   Poisson's ratio
+ * Returns w [m], > 0 outward.  Worst error 21 ulp of |u_z| + sin(theta) times the sum of u_r's two absolute terms.
+ */
+NLC_API double nlc_love_nonlocal_displacement(double force, double radius, double theta, double R, double E, double nu);
 
 /* ------------------------------------------------------------------------------------------------------------ objects --
  *
