@@ -138,7 +138,7 @@ uninstall: ## remove what install put there
 		$(foreach m,$(notdir $(MAN)),$(DESTDIR)$(mandir)/man3/$(m))
 
 DISTNAME := nlcontact-$(VERSION)
-DIST_FILES = Makefile README COPYING nlcontact.pc.in include lib tests bench man
+DIST_FILES = Makefile README COPYING nlcontact.pc.in include lib tests bench man tools
 dist: ## make a source archive, the same bytes every time
 	@mkdir -p $(B)
 	cd $(S) && tar --sort=name --owner=0 --group=0 --numeric-owner --mode=u+rw,go=rX --mtime=@0 --format=gnu \

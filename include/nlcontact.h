@@ -348,6 +348,73 @@ NLC_API void nlc_love_stress(double stress[4], double force, double radius, doub
  */
 NLC_API double nlc_love_nonlocal_displacement(double force, double radius, double theta, double R, double E, double nu);
 
+/*
+ * nlc_sphere_green - normal displacement of an elastic sphere's surface caused by a point force on it, exactly.
+ *
+ *     S = sum over n of s_n P_n(cos theta),   s_n = (2n+1) [2(1-nu) n^2 + nu n - (1-2nu)] / { (n-1) [n^2 + (1+2nu) n + 1+nu] }
+ *     for n != 1,   s_1 = 9(1-2nu) / (5(1+nu))
+ *
+ * The modes of linear elasticity, no approximation.  s_1 makes it the displacement relative to the centre of mass, whether the
+ * forces on the sphere balance, accelerate it or are balanced by a uniform body force such as its weight.  At small angles S = 2(1-nu)/s - 2(1-2nu)^2 ln s + ..., s = sin(theta/2).
+ *
+ * theta   angle, seen from the centre, between the force and the point looked at, 0 < theta <= pi [rad]
+ * nu      Poisson's ratio, 0 <= nu <= 0.5
+ * Returns S, > 0 inward, in units of U = P / (8 pi mu R) = (1+nu) P / (4 pi R E).  It changes sign, so accuracy is that of its
+ * largest term: worst error 2e-13 / s.
+ */
+NLC_API double nlc_sphere_green(double theta, double nu);
+
+/*
+ * nlc_sphere_finite_size - what the size of a contact changes in that, to second order in its radius a.
+ *
+ *     D = (lap + 2) S - chi (4 S + 2 lap B)
+ *
+ * lap is the Laplacian on the unit sphere, U grad B the tangential displacement by a point force.  The force P spread as Hertz'
+ * pressure over a contact of radius a moves the surface elsewhere by U [S + (a/R)^2 D/10], and its mean over another contact
+ * of radius a', as it counts for that one's force, by U [S + (a^2 + a'^2)/(10 R^2) D].
+ *
+ * theta, nu   as for nlc_sphere_green
+ * chi         tilt of the traction, 0 <= chi <= 1e60: 1 where it acts along the axis of the contact, as between equal spheres and
+ *             on a rigid plate, 0 where it is normal to the sphere.  Of side k of a contact of unequal ones,
+ *             chi = (q_k / sum q) (R_k / R_eff), q = (1-nu^2)/E, 1/R_eff = sum of 1/R.  D is linear in it.
+ * Returns D.  Worst error 4e-13 (1 + chi) / s^3, s = sin(theta/2).
+ */
+NLC_API double nlc_sphere_finite_size(double theta, double nu, double chi);
+
+/*
+ * nlc_sphere_self - displacement of a contact by its own force, beyond that on a half-space.
+ *
+ *     S1 = Z + (7/6) al t + [ (4/3) be ln t + be/6 + (4/3) ga ] t^2
+ *
+ * To second order in t = a/R: the approach of the sphere's centre of mass and a rigid plate is a^2/R + a^4/(15 R^3) + U S1.
+ * Z, al, be and ga depend on nu and chi: lib/sphere_prepare.c.
+ *
+ * t         contact radius / radius of the sphere, 0 < t <= 1
+ * nu, chi   as for nlc_sphere_finite_size; in be and ga, chi counts as 1
+ * Returns S1, > 0 into the body, in units of U.  Worst error 6e-15 (1 + chi^2) (1 + |ln t|).
+ */
+NLC_API double nlc_sphere_self(double t, double nu, double chi);
+
+/*
+ * nlc_sphere_self_energy - the energy that goes with it, Sbar: U P Sbar / 2, so that S1 = Sbar + (t/6) dSbar/dt.
+ *
+ *     Sbar = Z + (1-2nu)^2 / 3 + al t + (be ln t + ga) t^2
+ *
+ * t, nu, chi   as for nlc_sphere_self
+ * Returns Sbar.  Worst error 6e-15 (1 + chi^2) (1 + |ln t|).
+ */
+NLC_API double nlc_sphere_self_energy(double t, double nu, double chi);
+
+/*
+ * nlc_sphere_displacement - the counterpart of nlc_nonlocal_displacement on the exact sphere.
+ *
+ *     w = -(1+nu) P / (4 pi R E) S(theta, nu)
+ *
+ * force, theta, R, E, nu   as for nlc_nonlocal_displacement
+ * Returns w [m], > 0 outward, relative to the centre of mass.  Worst error 2e-13 / s times the factor before S, s = sin(theta/2).
+ */
+NLC_API double nlc_sphere_displacement(double force, double theta, double R, double E, double nu);
+
 /* ------------------------------------------------------------------------------------------------------------ objects --
  *
  * Structs begin with their size, so that a program built against an older header runs with a newer library and the other
