@@ -11,6 +11,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+struct nlc_sphere_constants;
+
 /* Contacts of one particle, or a part of them where there are more than fit. */
 #define NLC_BLOCK 64
 typedef struct nlc_block {
@@ -19,6 +21,8 @@ typedef struct nlc_block {
     double x[2 * NLC_BLOCK], y[2 * NLC_BLOCK], z[2 * NLC_BLOCK]; /* outward unit normals */
     double force[2 * NLC_BLOCK]; /* times U */
     double displacement[NLC_BLOCK]; /* added to, > 0 outward */
+    /* NLC_MODEL_SPHERE only: (contact radius / R)^2, with room for a copy; the second sum, see sphere_block.c */
+    double radius2[2 * NLC_BLOCK], second[NLC_BLOCK];
 } nlc_block;
 
 /* Constants of a kernel, prepared once per material. */
@@ -56,5 +60,9 @@ bool nlc_case_one_between(nlc_block *a, nlc_block *b, const nlc_kernel *kernel);
 void nlc_case_one_coefficients(double *coefficient, const nlc_block *a, int c, const nlc_kernel *kernel);
 double nlc_case_one_squares(nlc_block *a, const nlc_kernel *kernel);
 double nlc_case_one_most(const nlc_kernel *kernel, double distance);
+
+/* The elastic sphere to second order: sphere_block.c */
+bool nlc_sphere_within(nlc_block *a, const struct nlc_sphere_constants *constants);
+bool nlc_sphere_between(nlc_block *a, nlc_block *b, const struct nlc_sphere_constants *constants);
 
 #endif

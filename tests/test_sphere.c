@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
- * test_sphere.c - the elastic sphere: S, D and the self displacement against their definitions.
+ * test_sphere.c - the elastic sphere: S, D and the self displacement against their definitions, and the sums over a block.
  *
  * Tolerances are those of the header unless a test says otherwise.  Floating-point traps are on.
  */
@@ -9,6 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../lib/model.h"
+#include "../lib/sphere.h"
 #include "nlcontact.h"
 #include "sphere_values.h"
 #include "support.h"
@@ -304,6 +306,142 @@ START_TEST(domain)
 }
 END_TEST
 
+/* -------------------------------------------------------------------------------------------------------------- blocks -- */
+
+/* Random contacts; every fourth one close to the one before, at 1e-1 ... 1e-9 rad. */
+static void make_block(rng *g, nlc_block *b, int n)
+{
+    memset(b, 0, sizeof *b);
+    b->count = n;
+    for (int c = 0; c < n; c++) {
+        double v[3], w[3];
+        rng_unit(g, v);
+        if (c % 4 == 3) {
+            const double near = pow(10, -rng_uniform(g, 1, 9));
+            rng_unit(g, w);
+            const double last[3] = {b->x[c - 1], b->y[c - 1], b->z[c - 1]};
+            double length = 0;
+            for (int k = 0; k < 3; k++) v[k] = last[k] + near * w[k];
+            for (int k = 0; k < 3; k++) length += v[k] * v[k];
+            for (int k = 0; k < 3; k++) v[k] /= sqrt(length);
+        }
+        b->x[c] = v[0];
+        b->y[c] = v[1];
+        b->z[c] = v[2];
+        b->force[c] = rng_sign(g) * rng_uniform(g, 0.1, 1);
+        b->radius2[c] = rng_uniform(g, 0, 0.1);
+        b->displacement[c] = rng_uniform(g, -1, 1); /* both are added to */
+        b->second[c] = rng_uniform(g, -1, 1);
+    }
+}
+
+/* What the force at d of b does to c of a, added to v and w, and its share of the tolerances. */
+static void add_pair(const nlc_block *a, int c, const nlc_block *b, int d, double nu, long double sum[4])
+{
+    const long double x = (long double)a->x[c] - b->x[d], y = (long double)a->y[c] - b->y[d],
+                      z = (long double)a->z[c] - b->z[d];
+    const long double s = sqrtl(x * x + y * y + z * z) / 2;
+    const double theta = fmin((double)(2 * asinl(fminl(s, 1))), PI), S = nlc_sphere_green(theta, nu);
+    const double D = nlc_sphere_finite_size(theta, nu, 1);
+    sum[0] += b->force[d] * (S + (long double)b->radius2[d] * D / 10);
+    sum[1] += (long double)b->force[d] * D;
+    sum[2] += fabs(b->force[d]) * (1 / s + b->radius2[d] / (10 * s * s * s));
+    sum[3] += fabs(b->force[d]) / (s * s * s);
+}
+
+/*
+ * Tolerance: both sides are made from the same expressions; what differs are roundings, 40 of them and those of |N_c - N_d|,
+ * which is the difference of numbers of size 1 and exact where they are close: EPS, and of the directions' lengths, which
+ * asin does not know, at most 4 EPS; D changes three times as fast.
+ */
+static void compare_sums(const nlc_block *before, const nlc_block *after, int c, const long double sum[4])
+{
+    nlc_assert_abs(after->displacement[c], (double)(before->displacement[c] + sum[0]), 60 * EPS * (double)sum[2] + EPS);
+    nlc_assert_abs(after->second[c], (double)(before->second[c] + sum[1]), 60 * EPS * (double)sum[3] + EPS);
+}
+
+START_TEST(sums_within)
+{
+    rng g = {29};
+    for (int n = 0; n <= NLC_BLOCK; n++) {
+        const double nu = poissons[n % COUNT(poissons)];
+        nlc_block a, before;
+        nlc_sphere_constants constants;
+        nlc_sphere_prepare(&constants, nu, 1);
+        make_block(&g, &a, n);
+        before = a;
+        bool distinct = false;
+        nlc_assert_quiet(distinct = nlc_sphere_within(&a, &constants));
+        ck_assert(distinct);
+        for (int c = 0; c < n; c++) {
+            long double sum[4] = {0};
+            for (int d = 0; d < n; d++)
+                if (d != c) add_pair(&before, c, &before, d, nu, sum);
+            compare_sums(&before, &a, c, sum);
+        }
+    }
+}
+END_TEST
+
+START_TEST(sums_between)
+{
+    rng g = {31};
+    for (int round = 0; round < 40; round++) {
+        const int n = round < 8 ? round : 1 + (int)rng_below(&g, NLC_BLOCK), m = 1 + (int)rng_below(&g, NLC_BLOCK);
+        const double nu = poissons[round % COUNT(poissons)];
+        nlc_block a, b, a0, b0;
+        nlc_sphere_constants constants;
+        nlc_sphere_prepare(&constants, nu, 1);
+        make_block(&g, &a, n);
+        make_block(&g, &b, m);
+        a0 = a;
+        b0 = b;
+        bool distinct = false;
+        nlc_assert_quiet(distinct = nlc_sphere_between(&a, &b, &constants));
+        ck_assert(distinct);
+        for (int c = 0; c < n; c++) {
+            long double sum[4] = {0};
+            for (int d = 0; d < m; d++) add_pair(&a0, c, &b0, d, nu, sum);
+            compare_sums(&a0, &a, c, sum);
+        }
+        for (int d = 0; d < m; d++) {
+            long double sum[4] = {0};
+            for (int c = 0; c < n; c++) add_pair(&b0, d, &a0, c, nu, sum);
+            compare_sums(&b0, &b, d, sum);
+        }
+    }
+}
+END_TEST
+
+/* Any two equal directions are noticed, without an exception; the closest that are not equal are no error. */
+START_TEST(coincidence)
+{
+    rng g = {37};
+    nlc_sphere_constants constants;
+    nlc_sphere_prepare(&constants, 0.3, 1);
+    for (int n = 2; n <= NLC_BLOCK; n++)
+        for (int round = 0; round < 20; round++) {
+            nlc_block a, b;
+            make_block(&g, &a, n);
+            make_block(&g, &b, n);
+            const int c = (int)rng_below(&g, (uint64_t)n), d = (c + 1 + (int)rng_below(&g, (uint64_t)n - 1)) % n;
+            a.x[d] = a.x[c];
+            a.y[d] = a.y[c];
+            a.z[d] = round % 2 ? a.z[c] : nextafter(a.z[c], 0);
+            b.x[d] = a.x[c];
+            b.y[d] = a.y[c];
+            b.z[d] = a.z[d];
+            bool within = false, between = false;
+            nlc_block copy = a;
+            nlc_assert_quiet(within = nlc_sphere_within(&copy, &constants));
+            ck_assert_int_eq(within, round % 2 == 0);
+            if (round % 2) a.x[d] = -a.x[c]; /* away from b's d again */
+            nlc_assert_quiet(between = nlc_sphere_between(&a, &b, &constants));
+            ck_assert_int_eq(between, 0);
+        }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("sphere");
@@ -321,6 +459,9 @@ int main(void)
     tcase_add_test(t, displacement);
     tcase_add_test(t, half_space_close_by);
     tcase_add_test(t, domain);
+    tcase_add_test(t, sums_within);
+    tcase_add_test(t, sums_between);
+    tcase_add_test(t, coincidence);
     suite_add_tcase(suite, t);
     return run_suite(suite);
 }
