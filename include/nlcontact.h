@@ -85,7 +85,7 @@ extern "C" {
     X(NLC_ERROR_ALIGNMENT,       -8, "the memory given is not aligned to 8 bytes",                       "address modulo 8")\
     X(NLC_ERROR_NETWORK,         -9, "not a network made by nlc_network_init",                           "-1")              \
     X(NLC_ERROR_MODEL,          -10, "no such model",                                                    "the number given")\
-    X(NLC_ERROR_NOT_AVAILABLE,  -11, "the model exists, but not in this version of the library",         "the number given")\
+    X(NLC_ERROR_NO_POTENTIAL,   -11, "the model has no energy",                                          "the model")       \
     X(NLC_ERROR_METHOD,         -12, "no such method",                                                   "the number given")\
     X(NLC_ERROR_OPTION,         -13, "an option is NaN, infinite, negative or unknown",                  "offset, argument")  \
     X(NLC_ERROR_RADIUS,         -14, "a radius is not positive and finite",                              "particle")        \
@@ -452,10 +452,16 @@ typedef struct nlc_particles {
 enum {
     NLC_MODEL_GONZALEZ_CUITINO = 0, /* point force on a sphere cut from a half-space ([GC] 5, Case I) */
     NLC_MODEL_HERTZ = 1,            /* no coupling: the classical law */
-    NLC_MODEL_HALF_SPACE = 2,       /* [MC] 1 times the prefactor, at undeformed contact points */
-    NLC_MODEL_LOVE = 3,             /* not in this version: Hertz pressure on a half-space ([GC] 26-29, Case II) */
-    NLC_MODEL_SPHERE = 4,           /* not in this version: elastic sphere to second order in contact radius / radius */
-    NLC_MODEL_POINT_FORCE = 5       /* not in this version: point force on the elastic sphere */
+    NLC_MODEL_HALF_SPACE = 2,       /* MC-DEM: [MC] 1 times the prefactor, at deformed contact points unless options.points says otherwise */
+    NLC_MODEL_LOVE = 3,             /* Hertz pressure on a half-space ([GC] 26-29, Case II) */
+    NLC_MODEL_SPHERE = 4,           /* the exact elastic sphere to second order in contact radius / radius */
+    NLC_MODEL_POINT_FORCE = 5       /* point force on the exact elastic sphere, without what it does to its own contact */
+};
+
+/* Where the contact points of NLC_MODEL_HALF_SPACE are. */
+enum {
+    NLC_POINTS_DEFORMED = 0,  /* on the displaced surfaces, midway between them where they overlap ([MC] III) */
+    NLC_POINTS_UNDEFORMED = 1 /* on the undeformed spheres: NLC_MODEL_GONZALEZ_CUITINO times the prefactor */
 };
 
 /* How the coupled equations are solved. */
@@ -479,7 +485,7 @@ typedef struct nlc_options {
     int64_t max_sweeps;      /* 0: 1000 */
     double prefactor;        /* G of NLC_MODEL_HALF_SPACE, other models do not look at it; 0: 1 */
     int32_t simd;            /* NLC_SIMD_... */
-    int32_t reserved;        /* 0 */
+    int32_t points;          /* NLC_POINTS_... of NLC_MODEL_HALF_SPACE, other models do not look at it */
     const double *stiffness; /* [contacts] k of P = k x^(3/2) for hosts with a law of their own; NULL: n_H.  Copied. */
 } nlc_options;
 
@@ -536,7 +542,7 @@ NLC_API size_t nlc_network_size(const nlc_particles *particles, int64_t contact_
  * info            or NULL
  *
  * Returns NLC_OK; NLC_ERROR_NULL, _NULL_FIELD, _STRUCT_SIZE, _RESERVED, _COUNT, _STRIDE, _MEMORY_SIZE, _ALIGNMENT, _MODEL,
- * _NOT_AVAILABLE, _METHOD, _OPTION, _RADIUS, _MATERIAL, _YOUNG, _POISSON, _INDEX, _WALL_WALL, _RIGID_RIGID, _STIFFNESS, or
+ * _METHOD, _OPTION, _RADIUS, _MATERIAL, _YOUNG, _POISSON, _INDEX, _WALL_WALL, _RIGID_RIGID, _STIFFNESS, or
  * _RANGE where a stiffness or a coupling coefficient is beyond the range of double.
  * On error memory and *network are untouched, so that a network already living there stays valid.
  */
@@ -550,7 +556,7 @@ NLC_API nlc_status nlc_network_init(nlc_network **network, void *memory, size_t 
  * network    from nlc_network_init
  * options    or NULL for the defaults; options->stiffness is [contacts]
  * info       or NULL
- * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _RESERVED, _NETWORK, _MODEL, _NOT_AVAILABLE, _METHOD, _OPTION, _STIFFNESS, _RANGE.
+ * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _RESERVED, _NETWORK, _MODEL, _METHOD, _OPTION, _STIFFNESS, _RANGE.
  */
 NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *options, nlc_info *info);
 
@@ -561,7 +567,7 @@ NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *opti
  *
  * network    from nlc_network_init
  * force      [contacts] out: P >= 0 [N]
- * nonlocal   [contacts] in-out: g [m].  In: where to start, the values of the last step or zeros; any finite values will
+ * nonlocal   [contacts] in-out: g [m], with NLC_MODEL_SPHERE what the own force adds included.  In: where to start, the values of the last step or zeros; any finite values will
  *            do.  Out: g of the forces returned, P_c = k_c (gamma_c + g_c)_+^(3/2).
  * overlap    [contacts] gamma [m], negative for candidates
  * normal     [contacts][3] unit vectors from i to j (into the wall), | |n|^2 - 1 | <= 1e-6, used as given
@@ -583,6 +589,15 @@ NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *opti
  * on rigid and flat sides (info.left_out); clusters of contacts that no yielding particle joins are solved apart (info.clusters),
  * and what happens in one changes no bit in another; and a scene so loose that Hertz's forces can be proved to be within
  * the tolerance, with sweeps = 0, is not solved for at all: residual is the proved error then, and nonlocal 0.
+ *
+ * Models.  In NLC_MODEL_SPHERE the coefficients depend on the forces, but there is an energy, and all of the above holds with the
+ * coupling of its tangent in the place of C, what a contact's force does to the contact itself included.  NLC_MODEL_LOVE and
+ * NLC_MODEL_HALF_SPACE at deformed contact points have neither an energy nor a symmetric tangent: they are solved by
+ * Anderson's method, residual is an estimate from the steps taken (3 times the last change of the forces, times the largest
+ * amplification met), lambda_lower and lambda_upper stay infinite, and whether the state counts as stable, and how far the
+ * coupling is weakened, is decided by the coefficients of NLC_MODEL_GONZALEZ_CUITINO (times the prefactor), whose limit for small
+ * circles and displacements they are.  Weakened, the half-space is taken at undeformed points.  It is also solved in one piece,
+ * not cluster by cluster, and the displacements of the two sides are found anew in each solve, in as many sweeps.
  *
  * NLC_METHOD_FIXED_POINT is [GC] Algorithm 1, for reference.  Erratum mended: as printed it adds each sweep's displacements to
  * those of the sweep before; here each sweep starts from zero, as [GC] 9 has it.  It estimates its error from the rate at
@@ -628,11 +643,15 @@ NLC_API nlc_status nlc_predict(double *NLC_RESTRICT nonlocal, double *NLC_RESTRI
  *
  * network        from nlc_network_init
  * displacement   [contacts][2] out: on i's side, on j's side [m], > 0 outward; their sum is g.  0 on walls and rigid bodies.
- * force          [contacts] any finite values [N], negative for adhesion
- * overlap        [contacts] or NULL; no model of this version looks at it
+ *                NLC_MODEL_HALF_SPACE at deformed contact points: in-out, these are the displacements by which they are deformed
+ *                (those of the last sweep; zeros are undeformed surfaces)
+ * force          [contacts] any finite values [N], negative for adhesion: where circles of contact count, a pull acts on a point
+ * overlap        [contacts]; NULL is allowed unless the model is NLC_MODEL_HALF_SPACE at deformed contact points
  * normal         [contacts][3] as for nlc_solve
  * info           or NULL
- * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _OVERLAP, _NORMAL, _FORCE, _COINCIDENT, _RANGE.
+ * In models in which the circles of contact count their radii are those of the forces, at most that of the smaller particle.
+ * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _OVERLAP, _NORMAL, _NONLOCAL (displacement), _FORCE, _COINCIDENT,
+ * _RANGE.
  */
 NLC_API nlc_status nlc_sweep(nlc_network *network, double *NLC_RESTRICT displacement, const double *NLC_RESTRICT force,
                              const double *NLC_RESTRICT overlap, const double *NLC_RESTRICT normal, nlc_info *info);
@@ -642,6 +661,8 @@ NLC_API nlc_status nlc_sweep(nlc_network *network, double *NLC_RESTRICT displace
  *
  *     E = gamma.P + P.C.P / 2 - sum (3/5) P (P/k)^(2/3)
  *
+ * (NLC_MODEL_SPHERE: what takes the place of P.C.P / 2 has the terms of a finite contact, too.)
+ *
  * network    from nlc_network_init
  * energy     out [J]
  * force      [contacts] P >= 0 of nlc_solve [N].  Their error enters by its square.
@@ -650,8 +671,9 @@ NLC_API nlc_status nlc_sweep(nlc_network *network, double *NLC_RESTRICT displace
  * info       or NULL: residual, worst_contact: by how much the forces miss [GC] 10
  * Only a converged solution with its full coupling has an energy: forces from a lagged sweep or a weakened state give
  * NLC_WARNING_NOT_CONVERGED.
- * Returns NLC_OK; NLC_WARNING_NOT_CONVERGED; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _FORCE, _OVERLAP, _NORMAL, _COINCIDENT,
- * _RANGE.
+ * NLC_MODEL_LOVE and NLC_MODEL_HALF_SPACE at deformed contact points have no energy: NLC_ERROR_NO_POTENTIAL.
+ * Returns NLC_OK; NLC_WARNING_NOT_CONVERGED; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _NO_POTENTIAL, _FORCE, _OVERLAP, _NORMAL,
+ * _COINCIDENT, _RANGE.
  */
 NLC_API nlc_status nlc_energy(nlc_network *network, double *NLC_RESTRICT energy, const double *NLC_RESTRICT force,
                               const double *NLC_RESTRICT overlap, const double *NLC_RESTRICT normal, nlc_info *info);
@@ -668,8 +690,8 @@ NLC_API nlc_status nlc_energy(nlc_network *network, double *NLC_RESTRICT energy,
  * info        or NULL: sweeps, residual (of the linear equations, relative)
  * Solved by conjugate gradients to a residual of a tenth of the tolerance.  NLC_ERROR_UNSTABLE: the state is beyond the end of
  * the stable branch, noticed only if doverlap excites the unstable mode; nlc_tangent_bound notices it always.
- * Returns NLC_OK; NLC_WARNING_NOT_CONVERGED; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _OVERLAP (doverlap), _FORCE, _NORMAL,
- * _COINCIDENT, _RANGE, _UNSTABLE.
+ * Returns NLC_OK; NLC_WARNING_NOT_CONVERGED; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _NO_POTENTIAL, _OVERLAP (doverlap), _FORCE,
+ * _NORMAL, _COINCIDENT, _RANGE, _UNSTABLE.
  */
 NLC_API nlc_status nlc_tangent(nlc_network *network, double *NLC_RESTRICT dforce, const double *NLC_RESTRICT doverlap,
                                const double *NLC_RESTRICT force, const double *NLC_RESTRICT normal, nlc_info *info);
@@ -680,7 +702,7 @@ NLC_API nlc_status nlc_tangent(nlc_network *network, double *NLC_RESTRICT dforce
  * doverlap    [contacts] out [m]; 0 where P = 0
  * dforce      [contacts] any finite values [N]; taken as 0 where P = 0
  * network, force, normal, info   as for nlc_tangent
- * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _FORCE (force or dforce), _NORMAL, _COINCIDENT, _RANGE.
+ * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _NO_POTENTIAL, _FORCE (force or dforce), _NORMAL, _COINCIDENT, _RANGE.
  */
 NLC_API nlc_status nlc_tangent_inverse(nlc_network *network, double *NLC_RESTRICT doverlap, const double *NLC_RESTRICT dforce,
                                        const double *NLC_RESTRICT force, const double *NLC_RESTRICT normal, nlc_info *info);
@@ -694,7 +716,8 @@ NLC_API nlc_status nlc_tangent_inverse(nlc_network *network, double *NLC_RESTRIC
  * force        [contacts] P >= 0 of nlc_solve [N]: the state
  * normal       [contacts][3] as for nlc_solve
  * info         or NULL: lambda_upper, critical_particle, blocks
- * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _FORCE, _NORMAL, _RANGE, _UNSTABLE (not proved to be stable).
+ * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _NO_POTENTIAL, _FORCE, _NORMAL, _RANGE, _UNSTABLE (not proved to be
+ * stable).
  */
 NLC_API nlc_status nlc_tangent_bound(nlc_network *network, double *NLC_RESTRICT stiffness, const double *NLC_RESTRICT force,
                                      const double *NLC_RESTRICT normal, nlc_info *info);

@@ -2,6 +2,8 @@
 /* active.c - the part of a network that a solution has to be found for. */
 #include "active.h"
 
+#include "contact.h"
+
 #include <string.h>
 
 /*
@@ -39,7 +41,7 @@ static void find_reach(nlc_network *n)
     }
 }
 
-/* A marked contact is alone if neither of its sides is moved by another marked one.  Returns how many are not. */
+/* A marked contact is alone if neither of its sides is moved by another marked one or by itself.  Returns how many are not. */
 static int64_t count_marks(nlc_network *n)
 {
     int64_t count = 0;
@@ -51,7 +53,8 @@ static int64_t count_marks(nlc_network *n)
     }
     for (int64_t c = 0; c < n->contact_count; c++) {
         if (n->mark[c] == NLC_OUT) continue;
-        const bool moved = (yields(n, n->i[c]) && n->degree[n->i[c]] > 1) || (yields(n, n->j[c]) && n->degree[n->j[c]] > 1);
+        const int32_t least = n->settings.model->self ? 0 : 1;
+        const bool moved = (yields(n, n->i[c]) && n->degree[n->i[c]] > least) || (yields(n, n->j[c]) && n->degree[n->j[c]] > least);
         n->mark[c] = !moved ? NLC_ALONE : n->mark[c] == NLC_NEW ? NLC_NEW : NLC_IN;
         count += moved;
     }
@@ -70,11 +73,24 @@ int64_t nlc_mark_active(nlc_network *n, const double *overlap)
     return count_marks(n);
 }
 
-/* The number of a body in the part, given out in the order of the contacts; all walls are one. */
+/* The number of a wall in the part, -1 and downwards until that of the particles is known: n->body from its end. */
+static int32_t place_of_wall(nlc_network *n, int64_t body)
+{
+    nlc_network *p = n->part;
+    const int64_t walls = p->body_count, last = n->body_count - 1;
+    const int32_t place = n->place[body];
+    if (place >= 0 && place < walls && n->body[last - place] == body) return -1 - place;
+    n->body[last - walls] = (int32_t)body;
+    n->place[body] = (int32_t)walls;
+    p->body_count++;
+    return (int32_t)(-1 - walls);
+}
+
+/* The number of a body in the part, given out in the order of the contacts. */
 static int32_t place_of(nlc_network *n, int64_t body)
 {
     nlc_network *p = n->part;
-    if (body >= n->particle_count) return -1;
+    if (body >= n->particle_count) return place_of_wall(n, body);
     const int32_t place = n->place[body];
     if (place >= 0 && place < p->particle_count && n->body[place] == body) return place;
     const int64_t k = p->particle_count++;
@@ -118,15 +134,18 @@ void nlc_build_part(nlc_network *n, const int64_t *origin, int64_t count, const 
     p->settings = n->settings;
     p->stiffness_exponent = n->stiffness_exponent;
     p->coupling_exponent = n->coupling_exponent;
-    p->particle_count = p->contact_count = 0;
+    p->particle_count = p->contact_count = p->body_count = 0;
     p->self_contacts = false;
     for (int64_t m = 0; m < count; m++) add_contact(n, origin[m], overlap[origin[m]], normal + 3 * origin[m]);
-    for (int64_t m = 0; m < count; m++) { /* the wall comes behind the particles, whose number is known now */
-        if (p->i[m] < 0) p->i[m] = (int32_t)p->particle_count;
-        if (p->j[m] < 0) p->j[m] = (int32_t)p->particle_count;
+    for (int64_t m = 0; m < count; m++) { /* walls come behind the particles, whose number is known now */
+        if (p->i[m] < 0) p->i[m] = (int32_t)p->particle_count - 1 - p->i[m];
+        if (p->j[m] < 0) p->j[m] = (int32_t)p->particle_count - 1 - p->j[m];
     }
-    p->body_count = p->particle_count + 1;
-    p->largest[p->particle_count] = 0;
+    for (int64_t w = 0; w < p->body_count; w++) {
+        p->material[p->particle_count + w] = n->material[n->body[n->body_count - 1 - w]];
+        p->largest[p->particle_count + w] = 0;
+    }
+    p->body_count += p->particle_count;
     nlc_build_adjacency(p);
 }
 
@@ -142,13 +161,18 @@ void nlc_collect_part(nlc_network *n, const int64_t *origin)
     for (int64_t k = 0; k < p->particle_count; k++) n->weakening[n->body[k]] = p->weakening[k];
 }
 
-static void put(nlc_block *b, const nlc_network *n, const double *normal, int64_t e, double U)
+static void put(nlc_block *b, const nlc_network *n, const double *normal, int64_t e, int64_t particle)
 {
+    const nlc_shape shape = n->settings.model->shape;
+    const bool circles = shape == NLC_SHAPE_MOMENTS || shape == NLC_SHAPE_RADIUS;
+    const double t2 = circles ? nlc_circle2(n, e, particle) : 0;
     const double out = nlc_outward(e), *v = normal + 3 * (e >> 1);
     b->x[b->count] = out * v[0];
     b->y[b->count] = out * v[1];
     b->z[b->count] = out * v[2];
-    b->force[b->count] = U * n->force[e >> 1];
+    b->force[b->count] = nlc_scale_of(n, particle) * n->force[e >> 1];
+    b->shape[b->count] = shape == NLC_SHAPE_RADIUS ? sqrt(t2) : b->force[b->count] * t2 / 10;
+    b->second[b->count] = 0;
     b->displacement[b->count++] = 0;
 }
 
@@ -161,7 +185,7 @@ static void take(nlc_block *b, int64_t *entry, const nlc_network *n, const doubl
         const int64_t e = nlc_side_at(n, normal, *place);
         if ((n->force[e >> 1] > 0) != force) continue;
         entry[b->count] = e;
-        put(b, n, normal, e, nlc_scale_of(n, k));
+        put(b, n, normal, e, k);
     }
 }
 
@@ -193,9 +217,10 @@ static bool is_loaded(const nlc_network *n, int64_t k)
 int64_t nlc_check_rest(nlc_network *n, const double *overlap, const double *normal, int64_t *culprit)
 {
     int64_t touching = 0;
-    n->unit = 1;
+    nlc_set_units(n, 0, 0);
     for (int64_t c = 0; c < n->contact_count; c++)
         if (!(n->force[c] > 0)) n->current[c] = 0;
+    if (!nlc_is_linear(n->settings.model->shape)) nlc_set_approach(n, n->force);
     for (int64_t k = 0; k < n->particle_count; k++) {
         if (n->degree[k] == 0 || !is_loaded(n, k) || move_rest(n, normal, k)) continue;
         *culprit = nlc_find_coincident(n, normal, k);

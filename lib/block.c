@@ -2,6 +2,8 @@
 /* block.c - one particle's block: bounds and the largest eigenvalue. */
 #include "block.h"
 
+#include "contact.h"
+
 #include <string.h>
 
 #include "small.h"
@@ -22,9 +24,16 @@ static double weight_of(const nlc_network *n, int64_t e)
     return share > 0 ? n->slope[e >> 1] / share : 0;
 }
 
+/* What contacts do to themselves. */
+static double own_of(const nlc_network *n, int64_t e)
+{
+    return n->settings.model->self && n->settings.model->potential ? n->own[e] : 0;
+}
+
 /* The sides of a particle whose contacts have D > 0; false if they do not fit.  force is the weight. */
 static bool gather_active(nlc_block *b, int64_t *entry, const nlc_network *n, const double *normal, int64_t particle)
 {
+    const bool circles = n->settings.model->shape == NLC_SHAPE_MOMENTS;
     b->count = 0;
     for (int64_t p = n->start[particle]; p < n->start[particle + 1]; p++) {
         const int64_t e = nlc_side_at(n, normal, p);
@@ -35,6 +44,7 @@ static bool gather_active(nlc_block *b, int64_t *entry, const nlc_network *n, co
         b->y[b->count] = out * v[1];
         b->z[b->count] = out * v[2];
         b->force[b->count] = weight_of(n, e);
+        b->shape[b->count] = circles ? nlc_circle2(n, e, particle) / 6 : 0; /* as the tangent has it */
         entry[b->count++] = e;
     }
     return true;
@@ -45,9 +55,16 @@ double nlc_block_norm(const nlc_network *n, const double *normal, int64_t partic
     nlc_block b;
     int64_t entry[NLC_BLOCK];
     if (!gather_active(&b, entry, n, normal, particle)) return INFINITY;
-    if (b.count < 2) return 0;
-    const double squares = n->settings.model->squares(&b, nlc_kernel_of(n, particle));
-    return nlc_scale_of(n, particle) * sqrt(2 * squares * (b.count - 1) / b.count);
+    if (b.count == 0) return 0;
+    const double U = nlc_scale_of(n, particle), m = b.count;
+    double squares = 2 * U * U * n->settings.model->squares(&b, nlc_kernel_of(n, particle)), trace = 0;
+    for (int c = 0; c < b.count; c++) {
+        const double v = b.force[c] * own_of(n, entry[c]);
+        trace += v;
+        squares += v * v;
+    }
+    const double rest = squares - trace * trace / m;
+    return trace / m + sqrt(0.5 * (rest + fabs(rest)) * (m - 1) / m);
 }
 
 /* The block as a dense matrix, both triangles; returns its rows, or -1 if it does not fit. */
@@ -66,7 +83,8 @@ static int dense(double *B, const nlc_network *n, const double *normal, int64_t 
     }
     const double U = nlc_scale_of(n, particle);
     memset(B, 0, (size_t)(rows * rows) * sizeof *B);
-    for (int a = 1; a < b.count; a++) {
+    for (int a = 0; a < b.count; a++) {
+        B[row[a] * rows + row[a]] += root[a] * root[a] * own_of(n, entry[a]);
         n->settings.model->coefficients(coefficient, &b, a, nlc_kernel_of(n, particle));
         for (int d = 0; d < a; d++) {
             const double v = U * coefficient[d] * root[a] * root[d];
@@ -99,7 +117,7 @@ static void apply(nlc_network *n, const double *normal, int64_t k, double *w, co
 {
     for (int64_t p = n->start[k]; p < n->start[k + 1]; p++) in[n->entry[p] >> 1] = 0;
     EACH_CONTACT(e) in[e >> 1] = root_weight(n, e) * v[e >> 1];
-    nlc_displace_particle(n, in, normal, k);
+    nlc_displace_particle(n, NLC_OF_CHANGES, in, normal, k);
     EACH_CONTACT(e)
     {
         const double u = n->side[e] + (is_self(n, e) ? n->side[e ^ 1] : 0);

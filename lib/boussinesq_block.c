@@ -24,6 +24,8 @@ void nlc_case_one_prepare(nlc_kernel *kernel, double poisson, double prefactor)
 
 void nlc_half_space_prepare(nlc_kernel *kernel, double poisson, double prefactor)
 {
+    kernel->poisson = poisson;
+    kernel->prefactor = prefactor;
     kernel->c[0] = -4 * (1 - poisson) * prefactor;
     kernel->c[1] = -2 * (1 - 2 * poisson) * prefactor;
     kernel->c[2] = (7 - 8 * poisson) / 2 * prefactor;

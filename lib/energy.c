@@ -30,24 +30,31 @@ static int largest_exponent(const nlc_network *n, const double *force, const dou
     return e;
 }
 
-/* After a sweep of the forces, everything relative to the largest force and overlap. */
-static sum add_up(nlc_network *n, const double *force, const double *overlap, double per_force, double per_overlap)
+/* After a sweep of the forces: by how much they miss the law. */
+static void find_residual(nlc_network *n, const double *force, const double *overlap, double per_force, double per_overlap, sum *s)
 {
     const double most = nlc_join(1, nlc_exponent_above(nlc_largest_magnitude(force, n->contact_count)) + 40);
-    sum s = {0, 0, -1};
     for (int64_t c = 0; c < n->contact_count; c++) {
         const double p = force[c] * per_force, gamma = overlap[c] * per_overlap;
-        const double g = (n->side[2 * c] + n->side[2 * c + 1]) * per_overlap, own = nlc_hertz_overlap(n->stiffness[c], force[c]);
-        s.energy += p * (gamma + 0.5 * g - 0.6 * (own * per_overlap));
+        const double g = (n->side[2 * c] + n->side[2 * c + 1]) * per_overlap;
         const double a = n->largest[n->i[c]], b = n->largest[n->j[c]], scale = (a > b ? a : b) * per_force;
         const double law = nlc_hertz_force(n->stiffness[c], (gamma + g) / per_overlap);
         const double size = fabs((law < most ? law : most) * per_force - p);
         const double ratio = nlc_is_finite(size) ? nlc_ratio(size, scale) : 1e10;
-        if (ratio <= s.residual) continue;
-        s.residual = ratio;
-        s.worst = c;
+        if (ratio <= s->residual) continue;
+        s->residual = ratio;
+        s->worst = c;
     }
-    return s;
+}
+
+/* After a sweep for the energy; everything relative to the largest force and overlap. */
+static void add_up(const nlc_network *n, const double *force, const double *overlap, double per_force, double per_overlap, sum *s)
+{
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        const double own = nlc_hertz_overlap(n->stiffness[c], force[c]) * per_overlap;
+        const double g = (n->side[2 * c] + n->side[2 * c + 1]) * per_overlap;
+        s->energy += force[c] * per_force * (overlap[c] * per_overlap + 0.5 * g - 0.6 * own);
+    }
 }
 
 nlc_status nlc_energy(nlc_network *network, double *NLC_RESTRICT energy, const double *NLC_RESTRICT force,
@@ -58,6 +65,7 @@ nlc_status nlc_energy(nlc_network *network, double *NLC_RESTRICT energy, const d
     if (!network) return nlc_error(info, NLC_ERROR_NULL, 0);
     if (!nlc_network_is_valid(network)) return nlc_error(info, NLC_ERROR_NETWORK, -1);
     if (!energy) return nlc_error(info, NLC_ERROR_NULL, 1);
+    if (!network->settings.model->potential) return nlc_error(info, NLC_ERROR_NO_POTENTIAL, network->settings.number);
     const int64_t count = network->contact_count;
     if (count > 0 && !force) return nlc_error(info, NLC_ERROR_NULL, 2);
     if (count > 0 && !overlap) return nlc_error(info, NLC_ERROR_NULL, 3);
@@ -66,13 +74,21 @@ nlc_status nlc_energy(nlc_network *network, double *NLC_RESTRICT energy, const d
     if ((record.culprit = nlc_first_not_finite(overlap, count)) >= 0) return nlc_report(info, &record, NLC_ERROR_OVERLAP);
     if ((record.culprit = nlc_first_not_unit(normal, count)) >= 0) return nlc_report(info, &record, NLC_ERROR_NORMAL);
     const int p = nlc_exponent_above(nlc_largest_magnitude(force, count));
-    network->unit = 1;
+    nlc_set_units(network, 0, 0);
     record.sweeps = 1;
-    nlc_status status = nlc_displace(network, force, normal, &record.culprit);
+    nlc_status status = nlc_displace(network, NLC_OF_FORCES, force, normal, &record.culprit);
     if (status != NLC_OK) return nlc_report(info, &record, status);
     const int x = largest_exponent(network, force, overlap);
     if (p + x + nlc_exponent_above((double)count) > 1000 || p > 1000 || x > 1000) return nlc_report(info, &record, NLC_ERROR_RANGE);
-    const sum s = add_up(network, force, overlap, nlc_pow2(p < -1000 ? 1000 : -p), nlc_pow2(x < -1000 ? 1000 : -x));
+    const double per_force = nlc_pow2(p < -1000 ? 1000 : -p), per_overlap = nlc_pow2(x < -1000 ? 1000 : -x);
+    sum s = {0, 0, -1};
+    find_residual(network, force, overlap, per_force, per_overlap, &s);
+    if (network->settings.model->self) {
+        record.sweeps++;
+        status = nlc_displace(network, NLC_OF_ENERGY, force, normal, &record.culprit);
+        if (status != NLC_OK) return nlc_report(info, &record, status);
+    }
+    add_up(network, force, overlap, per_force, per_overlap, &s);
     *energy = nlc_join(s.energy, (p < -1000 ? -1000 : p) + (x < -1000 ? -1000 : x));
     record.residual = s.residual;
     record.worst_contact = s.worst;

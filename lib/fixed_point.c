@@ -10,7 +10,7 @@
  */
 #include <float.h>
 
-#include "network.h"
+#include "contact.h"
 
 #define FIRST_RATE 0.9            /* before a rate has been seen */
 #define SLOWEST_RATE 0.99999      /* a rate above is no convergence */
@@ -100,11 +100,14 @@ void nlc_fixed_point(nlc_network *n, const double *overlap, const double *normal
 {
     const double runaway = RUNAWAY * nlc_largest_magnitude(overlap, n->contact_count);
     state s = {.rate = {FIRST_RATE, FIRST_RATE, FIRST_RATE}, .smallest = INFINITY};
-    n->unit = 1;
+    const bool places = n->settings.model->shape == NLC_SHAPE_PLACE;
+    nlc_set_units(n, 0, 0);
     start(n, overlap);
+    if (places) nlc_split_sides(n, n->side);
     for (int64_t sweeps = 1; out->info.sweeps < n->settings.max_sweeps; sweeps++) {
         out->info.sweeps++;
-        nlc_status status = nlc_displace(n, n->force, normal, &out->info.culprit);
+        if (places) nlc_set_places(n, n->side, overlap, 1);
+        nlc_status status = nlc_displace(n, NLC_OF_FORCES, n->force, normal, &out->info.culprit);
         if (status != NLC_OK) return finish(out, status, 0, -1);
         s.last_change = s.change;
         update_forces(n, overlap, runaway, &s);

@@ -29,6 +29,9 @@
 #define LOAD_SWEEPS 60    /* in each of them but the last */
 #define NEAR 0.01         /* residual below which Ritz values say something of lambda */
 #define RUNAWAY 1e6
+#define LINEAR 0.1        /* of the 3/2-th power of the residual: that is what linear steps may make of it */
+#define LINEAR_ENOUGH 0.1 /* of the tolerance: no less is asked of them */
+#define LINEAR_STEPS 6    /* nor more steps */
 #define ROUNDING 1e-13    /* residuals below may be rounding */
 
 typedef enum verdict { GO_ON, DONE, BEYOND, ROUNDED } verdict;
@@ -39,14 +42,17 @@ typedef struct progress {
     int stalled;        /* sweeps since it last fell, when it is near rounding */
     int critical;       /* sweeps in a row with a Ritz value near 1 */
     bool looked, all;
-    int64_t begun; /* sweeps before this solve */
+    int64_t begun;   /* sweeps before this solve */
+    bool exact;      /* the displacements are those of the iterate, not of the last state and what changed since then */
+    double refresh;  /* residual, relative to the largest force, at which they are computed anew */
+    int since;       /* steps since they were */
 } progress;
 
-static bool sweep(nlc_iteration *q, const double *force, double *displacement, nlc_outcome *out)
+static bool sweep(nlc_iteration *q, nlc_response response, const double *force, double *displacement, nlc_outcome *out)
 {
     nlc_network *n = q->n;
     out->info.sweeps++;
-    out->status = nlc_displace(n, force, q->normal, &out->info.culprit);
+    out->status = nlc_displace(n, response, force, q->normal, &out->info.culprit);
     for (int64_t c = 0; c < n->contact_count && out->status == NLC_OK; c++)
         displacement[c] = n->side[2 * c] + n->side[2 * c + 1];
     return out->status == NLC_OK;
@@ -134,7 +140,7 @@ static void shorten(nlc_iteration *q)
 static bool advance(nlc_iteration *q, progress *s, nlc_outcome *out)
 {
     const double before = q->largest_residual;
-    if (!sweep(q, q->n->direction[0], q->n->image[0], out)) return false;
+    if (!sweep(q, NLC_OF_CHANGES, q->n->direction[0], q->n->image[0], out)) return false;
     nlc_stiffness_products(q);
     nlc_choose_step(q);
     if (before > 0.05 * q->largest_force) shorten(q);
@@ -144,15 +150,35 @@ static bool advance(nlc_iteration *q, progress *s, nlc_outcome *out)
     s->critical = out->info.sweeps - s->begun > 4 && critical ? s->critical + 1 : 0;
     s->all = s->all || q->theta > ALL_FROM || out->info.sweeps - s->begun > 12;
     nlc_take_step(q, s->all);
+    s->exact = nlc_is_linear(q->n->settings.model->shape);
+    s->since++;
+    return true;
+}
+
+/*
+ * Where the coefficients depend on the forces, steps are made with those of the last state, and the displacements are
+ * computed anew when the residual has fallen by as much as a step of Newton's method can make it.
+ */
+static bool refresh(nlc_iteration *q, progress *s, nlc_outcome *out)
+{
+    if (!sweep(q, NLC_OF_FORCES, q->n->force, q->n->current, out)) return false;
+    s->exact = true;
+    s->since = 0;
+    nlc_evaluate(q);
+    const double r = nlc_ratio(q->largest_residual, q->largest_force), enough = LINEAR_ENOUGH * q->n->settings.tolerance;
+    s->refresh = LINEAR * (r < 1 ? r * sqrt(r) : 1);
+    if (s->refresh < enough) s->refresh = enough;
     return true;
 }
 
 static verdict iterate(nlc_iteration *q, progress *s, nlc_outcome *out)
 {
-    if (!sweep(q, q->n->force, q->n->current, out)) return DONE;
-    for (;;) {
-        nlc_evaluate(q);
-        const verdict v = judge(q, s, out);
+    if (!refresh(q, s, out)) return DONE;
+    for (bool first = true;; first = false) {
+        if (!first) nlc_evaluate(q);
+        if (!s->exact && (q->largest_residual <= s->refresh * q->largest_force || s->since >= LINEAR_STEPS) && !refresh(q, s, out))
+            return DONE;
+        const verdict v = s->exact ? judge(q, s, out) : GO_ON;
         if (v != GO_ON || out->info.sweeps >= q->n->settings.max_sweeps) return v;
         if ((out->info.sweeps - s->begun > GIVE_UP && q->theta > HOPELESS) || s->critical >= 6) return BEYOND;
         if (!advance(q, s, out)) return DONE;

@@ -86,7 +86,7 @@ bool nlc_is_loose(nlc_network *n, const double *overlap, const double *normal, n
     nlc_iteration q;
     double lambda = 0, *sum = n->weakening;
     nlc_info info = out->info;
-    if (!may_be_loose(n, overlap)) return false;
+    if (!n->settings.model->most || !may_be_loose(n, overlap)) return false;
     nlc_iteration_units(&q, n, overlap, normal, 1);
     if (!find_displacements(&q)) return false;
     for (int64_t k = 0; k < n->particle_count; k++) {

@@ -11,7 +11,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-struct nlc_sphere_constants;
+#include "sphere.h"
 
 /* Contacts of one particle, or a part of them where there are more than fit. */
 #define NLC_BLOCK 64
@@ -20,29 +20,56 @@ typedef struct nlc_block {
     /* [count], with room for a copy behind it */
     double x[2 * NLC_BLOCK], y[2 * NLC_BLOCK], z[2 * NLC_BLOCK]; /* outward unit normals */
     double force[2 * NLC_BLOCK]; /* times U */
+    double shape[2 * NLC_BLOCK];    /* what the model's nlc_shape says */
     double displacement[NLC_BLOCK]; /* added to, > 0 outward */
-    /* NLC_MODEL_SPHERE only: (contact radius / R)^2, with room for a copy; the second sum, see sphere_block.c */
-    double radius2[2 * NLC_BLOCK], second[NLC_BLOCK];
+    double second[NLC_BLOCK];       /* NLC_SHAPE_MOMENTS: the second sum, likewise */
 } nlc_block;
 
+/* What a model has to know of a contact beside its direction and force. */
+typedef enum nlc_shape {
+    NLC_SHAPE_NONE,    /* nothing */
+    NLC_SHAPE_POINT,   /* 0: moments of a point */
+    NLC_SHAPE_MOMENTS, /* of its pressure: U P (a/R)^2 / 10, or in a coefficient (a/R)^2 / 6 */
+    NLC_SHAPE_RADIUS,  /* a/R */
+    NLC_SHAPE_PLACE    /* distance from the particle's centre / R - 1 */
+} nlc_shape;
+
+/* Whether displacements are proportional to the forces. */
+static inline bool nlc_is_linear(nlc_shape shape)
+{
+    return shape == NLC_SHAPE_NONE || shape == NLC_SHAPE_POINT;
+}
+
 /* Constants of a kernel, prepared once per material. */
-#define NLC_KERNEL_SIZE 3
 typedef struct nlc_kernel {
-    double c[NLC_KERNEL_SIZE];
+    double poisson, prefactor;
+    double c[3]; /* of Case I */
+    nlc_sphere_constants sphere;
 } nlc_kernel;
+
+/* What a contact's own force does to it, in units of U: displacement inward / P, its derivative, and twice the energy / P^2. */
+typedef struct nlc_self {
+    double displacement, slope, energy;
+} nlc_self;
 
 typedef struct nlc_model {
     const char *name;      /* as on a command line */
     const char *reference; /* authors, year, equations */
     const char *doi;
     const char *validity;
-    bool available; /* in this version */
+    bool potential; /* the forces are the derivative of an energy, the tangent is symmetric */
+    nlc_shape shape;
+    /* NULL in a model whose own force does nothing beyond Hertz; (a/R)^2, see contact.h for chi */
+    nlc_self (*self)(const nlc_kernel *kernel, double circle2, double chi);
     /* NULL in a model without coupling: */
     void (*prepare)(nlc_kernel *kernel, double poisson, double prefactor);
     /* Displacements in a block by its own forces, or in two blocks by each other's.  False: two directions are the same. */
     bool (*within)(nlc_block *a, const nlc_kernel *kernel);
     bool (*between)(nlc_block *a, nlc_block *b, const nlc_kernel *kernel);
-    /* Coefficients of contact c with those before it; sum of their squares over all pairs, times both forces. */
+    /*
+     * The tangent's coefficients of contact c with those before it; sum of their squares over all pairs, times both forces.
+     * In a model without potential those of Case I, which decide how far to weaken it.
+     */
     void (*coefficients)(double *coefficient, const nlc_block *a, int c, const nlc_kernel *kernel);
     double (*squares)(nlc_block *a, const nlc_kernel *kernel);
     /* No coefficient of directions that are at least so far apart is larger. */
@@ -51,6 +78,7 @@ typedef struct nlc_model {
 
 extern const nlc_model nlc_models[];
 extern const int32_t nlc_models_count;
+extern const nlc_model nlc_half_space_undeformed; /* NLC_POINTS_UNDEFORMED */
 
 /* Case I of [GC], which is also the half-space kernel of [MC] at undeformed contact points: boussinesq_block.c */
 void nlc_case_one_prepare(nlc_kernel *kernel, double poisson, double prefactor);
@@ -61,8 +89,21 @@ void nlc_case_one_coefficients(double *coefficient, const nlc_block *a, int c, c
 double nlc_case_one_squares(nlc_block *a, const nlc_kernel *kernel);
 double nlc_case_one_most(const nlc_kernel *kernel, double distance);
 
-/* The elastic sphere to second order: sphere_block.c */
-bool nlc_sphere_within(nlc_block *a, const struct nlc_sphere_constants *constants);
-bool nlc_sphere_between(nlc_block *a, nlc_block *b, const struct nlc_sphere_constants *constants);
+/* Case II of [GC]: love_block.c */
+void nlc_love_prepare(nlc_kernel *kernel, double poisson, double prefactor);
+bool nlc_love_within(nlc_block *a, const nlc_kernel *kernel);
+bool nlc_love_between(nlc_block *a, nlc_block *b, const nlc_kernel *kernel);
+
+/* Eq. 1 of [MC] at deformed contact points: half_space_block.c */
+bool nlc_half_space_within(nlc_block *a, const nlc_kernel *kernel);
+bool nlc_half_space_between(nlc_block *a, nlc_block *b, const nlc_kernel *kernel);
+
+/* The elastic sphere: sphere_model.c, sphere_block.c */
+void nlc_sphere_model_prepare(nlc_kernel *kernel, double poisson, double prefactor);
+nlc_self nlc_sphere_model_self(const nlc_kernel *kernel, double circle2, double chi);
+bool nlc_sphere_within(nlc_block *a, const nlc_kernel *kernel);
+bool nlc_sphere_between(nlc_block *a, nlc_block *b, const nlc_kernel *kernel);
+void nlc_sphere_coefficients(double *coefficient, const nlc_block *a, int c, const nlc_kernel *kernel);
+double nlc_sphere_squares(nlc_block *a, const nlc_kernel *kernel);
 
 #endif

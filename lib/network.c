@@ -27,17 +27,17 @@ static void lay_out_part(nlc_network *n, char *memory, size_t *used)
     n->mark = take(memory, used, n->contact_count, sizeof *n->mark);
     n->degree = take(memory, used, n->particle_count, sizeof *n->degree);
     n->cluster = take(memory, used, n->particle_count, sizeof *n->cluster);
-    n->place = take(memory, used, n->particle_count, sizeof *n->place);
-    n->body = take(memory, used, n->particle_count, sizeof *n->body);
+    n->place = take(memory, used, n->body_count, sizeof *n->place);
+    n->body = take(memory, used, n->body_count, sizeof *n->body);
     n->origin = take(memory, used, n->contact_count, sizeof *n->origin);
     n->part_overlap = take(memory, used, n->contact_count, sizeof *n->part_overlap);
     n->part_normal = take(memory, used, n->contact_count, 3 * sizeof *n->part_normal);
     p.start = take(memory, used, n->particle_count + 1, sizeof *p.start);
     p.radius = take(memory, used, n->particle_count, sizeof *p.radius);
     p.scale = take(memory, used, n->particle_count, sizeof *p.scale);
-    p.largest = take(memory, used, n->particle_count + 1, sizeof *p.largest);
+    p.largest = take(memory, used, n->body_count, sizeof *p.largest);
     p.weakening = take(memory, used, n->particle_count, sizeof *p.weakening);
-    p.material = take(memory, used, n->particle_count + 1, sizeof *p.material);
+    p.material = take(memory, used, n->body_count, sizeof *p.material);
     p.i = take(memory, used, n->contact_count, sizeof *p.i);
     p.j = take(memory, used, n->contact_count, sizeof *p.j);
     p.stiffness = take(memory, used, n->contact_count, sizeof *p.stiffness);
@@ -68,12 +68,12 @@ static size_t lay_out(nlc_network *n, char *memory)
     n->current = take(memory, &used, n->contact_count, sizeof *n->current);
     n->floor = take(memory, &used, n->contact_count, sizeof *n->floor);
     n->slope = take(memory, &used, n->contact_count, sizeof *n->slope);
-    for (int k = 0; k < 4; k++) n->spare[k] = take(memory, &used, n->contact_count, sizeof *n->spare[k]);
+    n->approach = take(memory, &used, n->contact_count, sizeof *n->approach);
+    n->own = take(memory, &used, 2 * n->contact_count, sizeof *n->own);
+    for (int k = 0; k < 5; k++) n->spare[k] = take(memory, &used, n->contact_count, sizeof *n->spare[k]);
     for (int k = 0; k < 4; k++) n->lanczos[k] = take(memory, &used, n->contact_count, sizeof *n->lanczos[k]);
-    for (int k = 0; k < NLC_DIRECTIONS; k++) {
-        n->direction[k] = take(memory, &used, n->contact_count, sizeof *n->direction[k]);
-        n->image[k] = take(memory, &used, n->contact_count, sizeof *n->image[k]);
-    }
+    for (int k = 0; k < NLC_DIRECTIONS; k++) n->direction[k] = take(memory, &used, n->contact_count, sizeof *n->direction[k]);
+    for (int k = 0; k < NLC_DIRECTIONS; k++) n->image[k] = take(memory, &used, n->contact_count, sizeof *n->image[k]);
     n->share = take(memory, &used, 2 * n->contact_count, sizeof *n->share);
     n->bound = take(memory, &used, n->particle_count, sizeof *n->bound);
     n->norm = take(memory, &used, n->particle_count, sizeof *n->norm);
@@ -193,7 +193,7 @@ static void build(nlc_network *n, const nlc_particles *p, const int32_t *i, cons
     }
     if (n->body_count > 0) memset(n->largest, 0, (size_t)n->body_count * sizeof *n->largest);
     nlc_build_adjacency(n);
-    for (int64_t k = 0; k < n->particle_count; k++) n->place[k] = -1;
+    for (int64_t k = 0; k < n->body_count; k++) n->place[k] = -1;
     n->connected = nlc_is_connected(n);
 }
 

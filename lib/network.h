@@ -20,7 +20,7 @@
 /* Options, checked and with the defaults filled in. */
 typedef struct nlc_settings {
     const nlc_model *model;
-    int32_t method, simd;
+    int32_t number, method, simd, reserved; /* number: of the model */
     double tolerance, prefactor;
     int64_t max_sweeps;
 } nlc_settings;
@@ -45,15 +45,19 @@ struct nlc_network {
     /* Set by nlc_set_options too */
     double *stiffness;  /* [contacts] */
     nlc_kernel *kernel; /* [materials] */
-    double unit;        /* coefficients are multiplied by it; set by everything that uses them */
+    /* Units of what is being computed, see nlc_set_units */
+    int length_unit, stiffness_unit;
+    double unit; /* coefficients are multiplied by it */
     /* Work space; sides on walls stay 0 in side, walls in largest */
     double *side;     /* [2 contacts] displacement of each side */
     double *force;    /* [contacts] */
     double *current;  /* [contacts] nonlocal displacement */
     double *largest;  /* [bodies] */
-    double *spare[4]; /* [contacts] */
+    double *spare[5]; /* [contacts] */
     double *lanczos[4]; /* [contacts] for blocks that do not fit on the stack */
     double *direction[NLC_DIRECTIONS], *image[NLC_DIRECTIONS]; /* [contacts] directions kept, and C times them */
+    double *approach; /* [contacts] see contact.h */
+    double *own;      /* [2 contacts] change of a side's displacement by the contact's own force; NLC_SHAPE_PLACE: the place */
     double *floor;    /* [contacts] smallest slope that a step may assume */
     double *slope;    /* [contacts] D = dP/dx in the same units */
     double *share;    /* [2 contacts] of the bound, see bound.h */
@@ -65,8 +69,8 @@ struct nlc_network {
     int32_t *degree;      /* [particles] marked contacts */
     int32_t *cluster;     /* [particles] another one of the same cluster, itself if it is the first */
     int64_t *origin;      /* [marked contacts] cluster by cluster */
-    int32_t *place;       /* [particles] number in the part, if body[place] is the particle */
-    int32_t *body;        /* [particles of the part] number of the particle */
+    int32_t *place;       /* [bodies] number in the part, if body[place] is the particle; of walls, if it is from the end */
+    int32_t *body;        /* [bodies] numbers of the part's particles; from the end backwards, of its walls */
     double *part_overlap; /* [contacts of the part] */
     double *part_normal;  /* [contacts of the part][3] */
 };
@@ -98,14 +102,29 @@ nlc_status nlc_read_settings(nlc_settings *settings, const nlc_options *options,
 bool nlc_prefactor_in_range(const nlc_network *network, const nlc_settings *settings);
 void nlc_apply_settings(nlc_network *network, const nlc_settings *settings, const double *stiffness);
 
+/* What a sweep is asked for: in a model whose displacements are proportional to the forces all the same. */
+typedef enum nlc_response {
+    NLC_OF_FORCES,  /* displacements; sets what NLC_OF_CHANGES needs to know of the state */
+    NLC_OF_CHANGES, /* change of the displacements by small changes of the forces, at the forces of the last NLC_OF_FORCES */
+    NLC_OF_ENERGY   /* minus half the product with the forces is the energy that the coupling adds */
+} nlc_response;
+
+/* From now on overlaps count 2^length times, stiffnesses 2^stiffness times; length is even. */
+static inline void nlc_set_units(nlc_network *n, int length, int stiffness)
+{
+    n->length_unit = length;
+    n->stiffness_unit = stiffness;
+    n->unit = nlc_join(1, -length / 2 - stiffness);
+}
+
 /*
  * sweep.c: displacement of every side under the given forces into network->side, and the largest |force| on every
  * body into network->largest.  NLC_ERROR_COINCIDENT (culprit: a contact) or NLC_ERROR_RANGE; then both are undefined.
  */
-nlc_status nlc_displace(nlc_network *network, const double *force, const double *normal, int64_t *culprit);
+nlc_status nlc_displace(nlc_network *network, nlc_response response, const double *force, const double *normal, int64_t *culprit);
 
 /* The same for the sides of one particle.  False: two directions are the same. */
-bool nlc_displace_particle(nlc_network *network, const double *force, const double *normal, int64_t particle);
+bool nlc_displace_particle(nlc_network *network, nlc_response response, const double *force, const double *normal, int64_t particle);
 
 /* The later one of two contacts of a particle that lie in the same direction; -1: none do. */
 int64_t nlc_find_coincident(const nlc_network *network, const double *normal, int64_t particle);
@@ -136,7 +155,10 @@ void nlc_start_over(nlc_outcome *outcome);
 /* fixed_point.c: [GC] Algorithm 1 from network->current. */
 void nlc_fixed_point(nlc_network *network, const double *overlap, const double *normal, nlc_outcome *outcome);
 
-/* galerkin.c: the default. */
+/* mixed.c: the default of models without an energy. */
+void nlc_mixed(nlc_network *network, const double *overlap, const double *normal, nlc_outcome *outcome);
+
+/* galerkin.c: the default of models with one. */
 void nlc_galerkin(nlc_network *network, const double *overlap, const double *normal, nlc_outcome *outcome);
 
 /* loose.c: whether all forces are those of Hertz to the tolerance.  If so, sets residual, worst_contact and the bounds of lambda. */

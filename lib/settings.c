@@ -17,7 +17,6 @@ nlc_status nlc_read_settings(nlc_settings *settings, const nlc_options *o, int64
 {
     *culprit = o->model;
     if (o->model < 0 || o->model >= nlc_models_count) return NLC_ERROR_MODEL;
-    if (!nlc_models[o->model].available) return NLC_ERROR_NOT_AVAILABLE;
     *culprit = o->method;
     if (o->method != NLC_METHOD_AUTOMATIC && o->method != NLC_METHOD_FIXED_POINT) return NLC_ERROR_METHOD;
     *culprit = offsetof(nlc_options, tolerance);
@@ -28,10 +27,13 @@ nlc_status nlc_read_settings(nlc_settings *settings, const nlc_options *o, int64
     if (!is_finite_nonnegative(o->prefactor)) return NLC_ERROR_OPTION;
     *culprit = offsetof(nlc_options, simd);
     if (o->simd != NLC_SIMD_BEST && o->simd != NLC_SIMD_GENERIC) return NLC_ERROR_OPTION;
-    *culprit = offsetof(nlc_options, reserved);
-    if (o->reserved != 0) return NLC_ERROR_OPTION;
+    *culprit = offsetof(nlc_options, points);
+    if (o->points != NLC_POINTS_DEFORMED && o->points != NLC_POINTS_UNDEFORMED) return NLC_ERROR_OPTION;
     *culprit = -1;
-    settings->model = &nlc_models[o->model];
+    const bool undeformed = o->model == NLC_MODEL_HALF_SPACE && o->points == NLC_POINTS_UNDEFORMED;
+    settings->model = undeformed ? &nlc_half_space_undeformed : &nlc_models[o->model];
+    settings->number = o->model;
+    settings->reserved = 0;
     settings->method = o->method;
     settings->simd = o->simd;
     settings->tolerance = o->tolerance <= 0 ? DEFAULT_TOLERANCE : o->tolerance < 1 ? o->tolerance : 1;

@@ -121,7 +121,8 @@ static void solve_cluster(nlc_network *n, const int64_t *origin, int64_t count, 
     for (int64_t m = 0; m < count; m++) joined |= n->mark[origin[m]] == NLC_NEW;
     for (int64_t m = 0; m < count && !joined; m++) n->current[origin[m]] = start_of(n, origin[m], overlap, nonlocal);
     nlc_build_part(n, origin, count, overlap, normal);
-    nlc_galerkin(n->part, n->part_overlap, n->part_normal, &part);
+    n->settings.model->potential ? nlc_galerkin(n->part, n->part_overlap, n->part_normal, &part)
+                                 : nlc_mixed(n->part, n->part_overlap, n->part_normal, &part);
     warn_if_close(n->part, n->part_overlap, n->part_normal, &part);
     if (part.status < 0) {
         out->status = part.status;
@@ -162,11 +163,13 @@ static void by_clusters(nlc_network *n, const double *overlap, const double *nor
 
 static void accelerated(nlc_network *n, const double *overlap, const double *normal, const double *nonlocal, nlc_outcome *out)
 {
-    if (nlc_mark_active(n, overlap) <= n->contact_count / 4 * 3 || !n->connected) {
+    /* where contact points move, displacements of sides are wanted, which are known of whole networks only */
+    const bool whole = n->settings.model->shape == NLC_SHAPE_PLACE;
+    if (!whole && (nlc_mark_active(n, overlap) <= n->contact_count / 4 * 3 || !n->connected)) {
         by_clusters(n, overlap, normal, nonlocal, out);
         return;
     }
-    nlc_galerkin(n, overlap, normal, out); /* a copy of so many would cost more than it saves */
+    n->settings.model->potential ? nlc_galerkin(n, overlap, normal, out) : nlc_mixed(n, overlap, normal, out); /* a copy of so many would cost more than it saves */
     warn_if_close(n, overlap, normal, out);
     out->info.clusters = 1;
 }

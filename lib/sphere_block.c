@@ -2,9 +2,11 @@
 /*
  * sphere_block.c - the elastic sphere to second order in contact radius / radius, over the contacts of one particle.
  *
- * To displacement and second are added, over the other contacts d of the block,
- *     v_c = sum [ P_d S(c,d) + P_d (a_d/R)^2 D(c,d) / 10 ]   and   w_c = sum P_d D(c,d):
- * the surface moves inward at c by U [ v_c + (a_c/R)^2 w_c / 6 ] on account of them.  Here chi = 1: the source's a_d goes with
+ * From displacement is subtracted, and to second added, over the other contacts d of the block,
+ *     v_c = sum [ P_d S(c,d) + P_d (a_d/R)^2 D(c,d) / 10 ]   and   w_c = sum P_d D(c,d),
+ * P being the force and P (a_d/R)^2 / 10 the shape: the surface moves inward at c by U [ v_c + (a_c/R)^2 w_c / 6 ] on account of
+ * them.  Their small changes are the same sums with another shape, the tangent's coefficients S + [(a_c/R)^2 + (a_d/R)^2] D / 6.
+ * Here chi = 1: the source's a_d goes with
  * D at the source's chi, the receiver's a_c with D at the receiver's, so that other chi ask for a third sum.
  *
  * S and D are the same for (c, d) and (d, c), so each pair is looked at once, and as they are all that takes time, they are
@@ -31,11 +33,6 @@ bool nlc_sphere_evaluate(double *restrict s, double *restrict d, const double *r
     return equal < NLC_SIGN_BIT;
 }
 
-/* What a contact gives to others. */
-typedef struct source {
-    double force[2 * NLC_BLOCK], moment[2 * NLC_BLOCK]; /* P, P a^2 / (10 R^2) */
-} source;
-
 /* Pairs at a distance of shift in the block's list, the list taken as a ring: n, or the half of it that meets each once. */
 static int length(int shift, int n)
 {
@@ -57,13 +54,13 @@ typedef struct sums {
 } sums;
 
 static void ring_sums(sums *restrict mine, sums *restrict theirs, const double *restrict s, const double *restrict d,
-                      const source *restrict p, int shift, int n)
+                      const nlc_block *restrict a, int shift, int n)
 {
     for (int c = 0; c < n; c++) {
-        mine->v[c] += s[c] * p->force[c + shift] + d[c] * p->moment[c + shift];
-        mine->w[c] += d[c] * p->force[c + shift];
-        theirs->v[c + shift] += s[c] * p->force[c] + d[c] * p->moment[c];
-        theirs->w[c + shift] += d[c] * p->force[c];
+        mine->v[c] += s[c] * a->force[c + shift] + d[c] * a->shape[c + shift];
+        mine->w[c] += d[c] * a->force[c + shift];
+        theirs->v[c + shift] += s[c] * a->force[c] + d[c] * a->shape[c];
+        theirs->w[c + shift] += d[c] * a->force[c];
     }
 }
 
@@ -72,27 +69,18 @@ static void copy_ring(double *x, int n)
     for (int c = 0; c < n; c++) x[n + c] = x[c];
 }
 
-static void set_source(source *p, const nlc_block *a)
+bool nlc_sphere_within(nlc_block *a, const nlc_kernel *kernel)
 {
-    for (int c = 0; c < a->count; c++) {
-        p->force[c] = a->force[c];
-        p->moment[c] = a->force[c] * a->radius2[c] * 0.1;
-    }
-}
-
-bool nlc_sphere_within(nlc_block *a, const nlc_sphere_constants *constants)
-{
+    const nlc_sphere_constants *constants = &kernel->sphere;
     const int n = a->count, end = n / 2 + 1;
     double t[PAIRS], s[PAIRS], d[PAIRS];
     sums mine, theirs;
-    source p;
     bool distinct = true;
     copy_ring(a->x, n);
     copy_ring(a->y, n);
     copy_ring(a->z, n);
-    set_source(&p, a);
-    copy_ring(p.force, n);
-    copy_ring(p.moment, n);
+    copy_ring(a->force, n);
+    copy_ring(a->shape, n);
     for (int c = 0; c < 2 * n; c++) mine.v[c] = mine.w[c] = theirs.v[c] = theirs.w[c] = 0;
     for (int shift = 1, first = 1, pairs; shift < end; first = shift) {
         pairs = 0;
@@ -102,42 +90,67 @@ bool nlc_sphere_within(nlc_block *a, const nlc_sphere_constants *constants)
         } while (shift < end && pairs + n <= PAIRS);
         distinct &= nlc_sphere_evaluate(s, d, t, pairs, constants);
         for (pairs = 0; first < shift; pairs += length(first++, n))
-            ring_sums(&mine, &theirs, s + pairs, d + pairs, &p, first, length(first, n));
+            ring_sums(&mine, &theirs, s + pairs, d + pairs, a, first, length(first, n));
     }
     for (int c = 0; c < n; c++) {
-        a->displacement[c] += mine.v[c] + (theirs.v[c] + theirs.v[n + c]);
+        a->displacement[c] -= mine.v[c] + (theirs.v[c] + theirs.v[n + c]);
         a->second[c] += mine.w[c] + (theirs.w[c] + theirs.w[n + c]);
     }
     return distinct;
 }
 
-/* Between contact c of a and all of b, whose source is p. */
-static bool row(nlc_block *restrict a, int c, nlc_block *restrict b, const source *restrict p,
-                const nlc_sphere_constants *constants)
+/* Between contact c of a and all of b. */
+static bool row(nlc_block *restrict a, int c, nlc_block *restrict b, const nlc_sphere_constants *constants)
 {
-    const double x = a->x[c], y = a->y[c], z = a->z[c], force = a->force[c], moment = force * a->radius2[c] * 0.1;
-    double t[NLC_BLOCK], s[NLC_BLOCK], d[NLC_BLOCK], v = 0, w = 0;
+    const double x = a->x[c], y = a->y[c], z = a->z[c], force = a->force[c], moment = a->shape[c];
+    double t[NLC_BLOCK] = {0}, s[NLC_BLOCK], d[NLC_BLOCK], v = 0, w = 0;
     for (int k = 0; k < b->count; k++) {
         const double dx = x - b->x[k], dy = y - b->y[k], dz = z - b->z[k];
         t[k] = dx * dx + dy * dy + dz * dz;
     }
     const bool distinct = nlc_sphere_evaluate(s, d, t, b->count, constants);
     for (int k = 0; k < b->count; k++) {
-        b->displacement[k] += s[k] * force + d[k] * moment;
+        b->displacement[k] -= s[k] * force + d[k] * moment;
         b->second[k] += d[k] * force;
-        v += s[k] * p->force[k] + d[k] * p->moment[k];
-        w += d[k] * p->force[k];
+        v += s[k] * b->force[k] + d[k] * b->shape[k];
+        w += d[k] * b->force[k];
     }
-    a->displacement[c] += v;
+    a->displacement[c] -= v;
     a->second[c] += w;
     return distinct;
 }
 
-bool nlc_sphere_between(nlc_block *a, nlc_block *b, const nlc_sphere_constants *constants)
+bool nlc_sphere_between(nlc_block *a, nlc_block *b, const nlc_kernel *kernel)
 {
-    source p;
     bool distinct = true;
-    set_source(&p, b);
-    for (int c = 0; c < a->count; c++) distinct &= row(a, c, b, &p, constants);
+    for (int c = 0; c < a->count; c++) distinct &= row(a, c, b, &kernel->sphere);
     return distinct;
+}
+
+static void distances(double *restrict t, const nlc_block *restrict a, int c)
+{
+    for (int k = 0; k < c; k++) {
+        const double dx = a->x[c] - a->x[k], dy = a->y[c] - a->y[k], dz = a->z[c] - a->z[k];
+        t[k] = dx * dx + dy * dy + dz * dz;
+    }
+}
+
+void nlc_sphere_coefficients(double *coefficient, const nlc_block *a, int c, const nlc_kernel *kernel)
+{
+    double t[NLC_BLOCK] = {0}, s[NLC_BLOCK], d[NLC_BLOCK];
+    distances(t, a, c);
+    nlc_sphere_evaluate(s, d, t, c, &kernel->sphere);
+    for (int k = 0; k < c; k++) coefficient[k] = -(s[k] + (a->shape[c] + a->shape[k]) * d[k]);
+}
+
+double nlc_sphere_squares(nlc_block *a, const nlc_kernel *kernel)
+{
+    double coefficient[NLC_BLOCK], total = 0;
+    for (int c = 1; c < a->count; c++) {
+        double sum = 0;
+        nlc_sphere_coefficients(coefficient, a, c, kernel);
+        for (int k = 0; k < c; k++) sum += coefficient[k] * coefficient[k] * a->force[k];
+        total += sum * a->force[c];
+    }
+    return total;
 }

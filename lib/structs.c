@@ -17,7 +17,7 @@ static const size_t particles_ends[] = {
 static const size_t options_ends[] = {
     END(nlc_options, struct_size), END(nlc_options, model),      END(nlc_options, method),
     END(nlc_options, tolerance),   END(nlc_options, max_sweeps), END(nlc_options, prefactor),
-    END(nlc_options, simd),        END(nlc_options, reserved),   END(nlc_options, stiffness),
+    END(nlc_options, simd),        END(nlc_options, points),   END(nlc_options, stiffness),
 };
 
 static nlc_status read_struct(void *to, size_t own, const void *from, const size_t *ends, size_t count)

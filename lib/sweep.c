@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* sweep.c - from forces to surface displacements, particle by particle. */
-#include "network.h"
+#include "contact.h"
 
 #include <string.h>
 
@@ -8,8 +8,8 @@
 #include "vector.h"
 
 /* Fills a block from a particle's list; returns the largest magnitude among the forces. */
-static double gather(nlc_block *b, const nlc_network *n, const double *force, const double *normal, int64_t particle,
-                     int64_t begin, int64_t end)
+static double gather(nlc_block *b, const nlc_network *n, nlc_response response, const double *force, const double *normal,
+                     int64_t particle, int64_t begin, int64_t end)
 {
     const double U = nlc_scale_of(n, particle);
     double largest = 0;
@@ -21,43 +21,41 @@ static double gather(nlc_block *b, const nlc_network *n, const double *force, co
         b->y[d] = out * normal[3 * c + 1];
         b->z[d] = out * normal[3 * c + 2];
         b->force[d] = U * force[c];
-        b->displacement[d] = 0;
+        b->displacement[d] = b->second[d] = 0;
         double p = fabs(force[c]);
         largest = p > largest ? p : largest;
     }
+    if (n->settings.model->shape != NLC_SHAPE_NONE) nlc_set_shapes(b, n, response, normal, particle, begin);
     return largest;
 }
 
-static void store(const nlc_block *b, nlc_network *n, const double *normal, int64_t begin)
+/* The sides of a piece of a particle's list, whose block is a and is done. */
+static void store(const nlc_block *a, nlc_network *n, nlc_response response, const double *force, const double *normal,
+                  int64_t particle, int64_t begin)
 {
-    for (int d = 0; d < b->count; d++) n->side[nlc_side_at(n, normal, begin + d)] = b->displacement[d];
+    for (int d = 0; d < a->count; d++) n->side[nlc_side_at(n, normal, begin + d)] = a->displacement[d];
+    if (n->settings.model->self) nlc_add_self(a, n, response, force, normal, particle, begin);
 }
 
-static void add(const nlc_block *b, nlc_network *n, const double *normal, int64_t begin)
-{
-    for (int d = 0; d < b->count; d++) n->side[nlc_side_at(n, normal, begin + d)] += b->displacement[d];
-}
-
-/* More contacts than a block holds: each block with itself, then with those behind it. */
-static bool displace_in_blocks(nlc_network *n, const double *force, const double *normal, int64_t particle, double *largest)
+/* More contacts than a block holds: each block with itself, then with all others. */
+static bool displace_in_blocks(nlc_network *n, nlc_response response, const double *force, const double *normal,
+                               int64_t particle, double *largest)
 {
     const nlc_model *model = n->settings.model;
     const nlc_kernel *kernel = nlc_kernel_of(n, particle);
     const int64_t begin = n->start[particle], end = n->start[particle + 1];
     nlc_block a, b;
     bool distinct = true;
-    for (int64_t p = begin; p < end; p++) n->side[n->entry[p]] = 0;
     for (int64_t p = begin; p < end; p += NLC_BLOCK) {
-        const int64_t p_end = end - p > NLC_BLOCK ? p + NLC_BLOCK : end;
-        const double f = gather(&a, n, force, normal, particle, p, p_end);
+        const double f = gather(&a, n, response, force, normal, particle, p, end - p > NLC_BLOCK ? p + NLC_BLOCK : end);
         *largest = f > *largest ? f : *largest;
         distinct &= model->within(&a, kernel);
-        for (int64_t q = p_end; q < end; q += NLC_BLOCK) {
-            gather(&b, n, force, normal, particle, q, end - q > NLC_BLOCK ? q + NLC_BLOCK : end);
+        for (int64_t q = begin; q < end; q += NLC_BLOCK) {
+            if (q == p) continue;
+            gather(&b, n, response, force, normal, particle, q, end - q > NLC_BLOCK ? q + NLC_BLOCK : end);
             distinct &= model->between(&a, &b, kernel);
-            add(&b, n, normal, q);
         }
-        add(&a, n, normal, p);
+        store(&a, n, response, force, normal, particle, p);
     }
     return distinct;
 }
@@ -73,7 +71,7 @@ static double largest_force(const nlc_network *n, const double *force, int64_t b
     return largest;
 }
 
-bool nlc_displace_particle(nlc_network *n, const double *force, const double *normal, int64_t particle)
+bool nlc_displace_particle(nlc_network *n, nlc_response response, const double *force, const double *normal, int64_t particle)
 {
     const nlc_model *model = n->settings.model;
     const int64_t begin = n->start[particle], end = n->start[particle + 1];
@@ -83,12 +81,12 @@ bool nlc_displace_particle(nlc_network *n, const double *force, const double *no
         for (int64_t p = begin; p < end; p++) n->side[n->entry[p]] = 0;
         largest = largest_force(n, force, begin, end);
     } else if (end - begin > NLC_BLOCK) {
-        distinct = displace_in_blocks(n, force, normal, particle, &largest);
+        distinct = displace_in_blocks(n, response, force, normal, particle, &largest);
     } else if (end > begin) {
         nlc_block a;
-        largest = gather(&a, n, force, normal, particle, begin, end);
+        largest = gather(&a, n, response, force, normal, particle, begin, end);
         distinct = model->within(&a, nlc_kernel_of(n, particle));
-        store(&a, n, normal, begin);
+        store(&a, n, response, force, normal, particle, begin);
     }
     n->largest[particle] = largest;
     return distinct;
@@ -133,12 +131,14 @@ static bool in_range(const nlc_network *n, const double *force, const double *no
     return e + 512 <= 1020 || e + closeness(n, normal) <= 1020;
 }
 
-nlc_status nlc_displace(nlc_network *network, const double *force, const double *normal, int64_t *culprit)
+nlc_status nlc_displace(nlc_network *network, nlc_response response, const double *force, const double *normal, int64_t *culprit)
 {
+    const nlc_shape shape = network->settings.model->shape;
     *culprit = -1;
     if (network->settings.model->within && !in_range(network, force, normal)) return NLC_ERROR_RANGE;
+    if (response == NLC_OF_FORCES && (shape == NLC_SHAPE_MOMENTS || shape == NLC_SHAPE_RADIUS)) nlc_set_approach(network, force);
     for (int64_t k = 0; k < network->particle_count; k++)
-        if (!nlc_displace_particle(network, force, normal, k)) {
+        if (!nlc_displace_particle(network, response, force, normal, k)) {
             *culprit = nlc_find_coincident(network, normal, k);
             return NLC_ERROR_COINCIDENT;
         }
@@ -158,12 +158,17 @@ nlc_status nlc_sweep(nlc_network *network, double *NLC_RESTRICT displacement, co
     if (!force) return nlc_error(info, NLC_ERROR_NULL, 2);
     if (!normal) return nlc_error(info, NLC_ERROR_NULL, 4);
     if (overlap && (culprit = nlc_first_not_finite(overlap, count)) >= 0) return nlc_error(info, NLC_ERROR_OVERLAP, culprit);
+    const bool places = network->settings.model->shape == NLC_SHAPE_PLACE;
+    if (places && !overlap) return nlc_error(info, NLC_ERROR_NULL, 3);
     if ((culprit = nlc_first_not_unit(normal, count)) >= 0) return nlc_error(info, NLC_ERROR_NORMAL, culprit);
+    if (places && (culprit = nlc_first_not_finite(displacement, 2 * count)) >= 0)
+        return nlc_error(info, NLC_ERROR_NONLOCAL, culprit / 2);
     if ((culprit = nlc_first_not_finite(force, count)) >= 0) return nlc_error(info, NLC_ERROR_FORCE, culprit);
 
     nlc_info record = nlc_new_info();
-    network->unit = 1;
-    nlc_status status = nlc_displace(network, force, normal, &record.culprit);
+    nlc_set_units(network, 0, 0);
+    if (places) nlc_set_places(network, displacement, overlap, 1);
+    nlc_status status = nlc_displace(network, NLC_OF_FORCES, force, normal, &record.culprit);
     if (status != NLC_OK) return nlc_report(info, &record, status);
     memcpy(displacement, network->side, 2 * (size_t)count * sizeof *displacement);
     record.sweeps = 1;

@@ -24,12 +24,24 @@ static bool set_slopes(nlc_network *n, const double *force, units *result)
     u.slope = u.stiffness + (u.force - u.stiffness) / 3;
     *result = u;
     if (u.slope > 1000 || u.slope < -1000 || n->coupling_exponent + u.slope > 200) return false;
-    n->unit = nlc_pow2(u.slope);
+    nlc_set_units(n, -2 * ((u.force - u.stiffness) / 3), -u.stiffness);
     for (int64_t c = 0; c < n->contact_count; c++) {
         const double k = nlc_join(n->stiffness[c], -u.stiffness), p = nlc_join(force[c], -u.force);
         n->slope[c] = p > 0 && k > 1e-150 ? 1.5 * k * cbrt(p / k) : 0;
     }
     return true;
+}
+
+/* Sets what a model with coefficients that depend on the forces has to know of them. */
+static nlc_status set_state(nlc_network *n, const double *force, const double *normal, units u, nlc_info *info)
+{
+    if (nlc_is_linear(n->settings.model->shape)) return NLC_OK;
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        n->spare[0][c] = nlc_join(force[c], -u.force);
+        n->floor[c] = 0; /* contacts without force have no part in the tangent */
+    }
+    info->sweeps++;
+    return nlc_displace(n, NLC_OF_FORCES, n->spare[0], normal, &info->culprit);
 }
 
 /* out = D^1/2 C D^1/2 in; false if the sweep failed */
@@ -38,7 +50,7 @@ static bool couple(nlc_network *n, double *out, const double *in, const double *
     double *t = n->spare[3];
     for (int64_t c = 0; c < n->contact_count; c++) t[c] = sqrt(n->slope[c]) * in[c];
     o->info.sweeps++;
-    o->status = nlc_displace(n, t, normal, &o->info.culprit);
+    o->status = nlc_displace(n, NLC_OF_CHANGES, t, normal, &o->info.culprit);
     for (int64_t c = 0; c < n->contact_count && o->status == NLC_OK; c++)
         out[c] = sqrt(n->slope[c]) * (n->side[2 * c] + n->side[2 * c + 1]);
     return o->status == NLC_OK;
@@ -121,6 +133,9 @@ static bool begin(call *k, nlc_network *n, const double *out, const double *in, 
         k->o.info.culprit = 0;
     } else if (!nlc_network_is_valid(n)) {
         k->o.status = NLC_ERROR_NETWORK;
+    } else if (!n->settings.model->potential) {
+        k->o.status = NLC_ERROR_NO_POTENTIAL;
+        k->o.info.culprit = n->settings.number;
     } else if (n->contact_count > 0) {
         const double *const argument[4] = {out, in, force, normal};
         for (int a = 4; a > 0; a--) {
@@ -130,6 +145,7 @@ static bool begin(call *k, nlc_network *n, const double *out, const double *in, 
         }
         if (k->o.status == NLC_OK) k->o.status = check(n, in, force, normal, bad_in, &k->o.info.culprit);
         if (k->o.status == NLC_OK && !set_slopes(n, force, &k->u)) k->o.status = NLC_ERROR_RANGE;
+        if (k->o.status == NLC_OK) k->o.status = set_state(n, force, normal, k->u, &k->o.info);
     }
     if (k->o.status == NLC_OK && n->contact_count > 0) {
         k->in = scale_down(n->spare[0], in, n->contact_count);
@@ -162,7 +178,7 @@ nlc_status nlc_tangent_inverse(nlc_network *network, double *NLC_RESTRICT doverl
     double *p = network->spare[0], *x = network->current;
     for (int64_t c = 0; c < count; c++) p[c] = network->slope[c] > 0 ? p[c] : 0;
     k.o.info.sweeps = 1;
-    k.o.status = nlc_displace(network, p, normal, &k.o.info.culprit);
+    k.o.status = nlc_displace(network, NLC_OF_CHANGES, p, normal, &k.o.info.culprit);
     for (int64_t c = 0; c < count && k.o.status == NLC_OK; c++) {
         const double slope = network->slope[c], own = p[c] / (slope > 1e-290 ? slope : 1e-290);
         x[c] = slope > 1e-290 ? own - (network->side[2 * c] + network->side[2 * c + 1]) : 0;
@@ -194,6 +210,7 @@ nlc_status nlc_tangent_bound(nlc_network *network, double *NLC_RESTRICT stiffnes
     if (!nlc_info_is_valid(info)) return NLC_ERROR_STRUCT_SIZE;
     if (!network) return nlc_error(info, NLC_ERROR_NULL, 0);
     if (!nlc_network_is_valid(network)) return nlc_error(info, NLC_ERROR_NETWORK, -1);
+    if (!network->settings.model->potential) return nlc_error(info, NLC_ERROR_NO_POTENTIAL, network->settings.number);
     const int64_t particles = network->particle_count;
     if (particles == 0) return nlc_error(info, NLC_OK, -1);
     if (!stiffness) return nlc_error(info, NLC_ERROR_NULL, 1);
@@ -205,6 +222,8 @@ nlc_status nlc_tangent_bound(nlc_network *network, double *NLC_RESTRICT stiffnes
 
     units u;
     if (!set_slopes(network, force, &u)) return nlc_report(info, &o.info, NLC_ERROR_RANGE);
+    o.status = set_state(network, force, normal, u, &o.info);
+    if (o.status != NLC_OK) return nlc_report(info, &o.info, o.status);
     nlc_bound bound = {0, -1, 0};
     if (network->settings.model->within) {
         nlc_bound_particles(network, normal, &bound);

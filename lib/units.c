@@ -5,13 +5,13 @@
 /* No step assumes a slope below this part of that at the largest overlap nearby. */
 #define SLOPE_FLOOR 0.01
 
-/* 1 / the power of 2^n that is next to x > 0 from below; 1 for 0. */
-static double per_unit_of(double x, int n)
+/* Minus the exponent of the power of 2^n that is next to x > 0 from below; 0 for 0. */
+static int per_unit_of(double x, int n)
 {
-    if (x <= 0) return 1;
+    if (x <= 0) return 0;
     int e = nlc_split(x).e;
     e -= ((e % n) + n) % n;
-    return nlc_pow2(-(e < -1020 ? -1020 : e));
+    return -(e < -1020 ? -1020 : e);
 }
 
 /* Largest scaled overlap on every particle, 0 at least. */
@@ -30,10 +30,12 @@ static void largest_overlaps(nlc_iteration *q)
 void nlc_iteration_units(nlc_iteration *q, nlc_network *n, const double *overlap, const double *normal, double part)
 {
     *q = (nlc_iteration){.n = n, .overlap = overlap, .normal = normal, .directions = 1};
-    q->per_overlap = per_unit_of(nlc_largest_magnitude(overlap, n->contact_count), 2); /* its root is a power of 2, too */
-    q->per_stiffness = per_unit_of(nlc_largest_magnitude(n->stiffness, n->contact_count), 1);
+    const int length = per_unit_of(nlc_largest_magnitude(overlap, n->contact_count), 2); /* its root is a power of 2, too */
+    const int stiffness = per_unit_of(nlc_largest_magnitude(n->stiffness, n->contact_count), 1);
+    q->per_overlap = nlc_pow2(length);
+    q->per_stiffness = nlc_pow2(stiffness);
     q->load = q->per_overlap * part;
-    n->unit = sqrt(1 / q->per_overlap) / q->per_stiffness;
+    nlc_set_units(n, length, stiffness);
 }
 
 void nlc_iteration_start(nlc_iteration *q, nlc_network *n, const double *overlap, const double *normal, double part)

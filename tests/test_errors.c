@@ -211,9 +211,6 @@ START_TEST(options)
 {
     WITH(f.options.model, 6, init(), NLC_ERROR_MODEL, 6);
     WITH(f.options.model, -1, init(), NLC_ERROR_MODEL, -1);
-    WITH(f.options.model, NLC_MODEL_LOVE, init(), NLC_ERROR_NOT_AVAILABLE, NLC_MODEL_LOVE);
-    WITH(f.options.model, NLC_MODEL_SPHERE, init(), NLC_ERROR_NOT_AVAILABLE, NLC_MODEL_SPHERE);
-    WITH(f.options.model, NLC_MODEL_POINT_FORCE, init(), NLC_ERROR_NOT_AVAILABLE, NLC_MODEL_POINT_FORCE);
     WITH(f.options.method, -1, init(), NLC_ERROR_METHOD, -1);
     WITH(f.options.method, 99, init(), NLC_ERROR_METHOD, 99);
     const double bad[] = {NAN, INFINITY, -INFINITY, -1e-300};
@@ -223,7 +220,7 @@ START_TEST(options)
     }
     WITH(f.options.max_sweeps, -1, init(), NLC_ERROR_OPTION, offsetof(nlc_options, max_sweeps));
     WITH(f.options.simd, 77, init(), NLC_ERROR_OPTION, offsetof(nlc_options, simd));
-    WITH(f.options.reserved, 1, init(), NLC_ERROR_OPTION, offsetof(nlc_options, reserved));
+    WITH(f.options.points, 2, init(), NLC_ERROR_OPTION, offsetof(nlc_options, points));
     WITH(f.options.prefactor, 1e305, init(), NLC_ERROR_RANGE, -1);
     WITH(f.options.prefactor, 1e305, nlc_set_options(f.s.network, &f.options, &f.info), NLC_ERROR_RANGE, -1);
     WITH(f.options.method, 99, nlc_set_options(f.s.network, &f.options, &f.info), NLC_ERROR_METHOD, 99);
@@ -352,6 +349,20 @@ static nlc_status bound(void)
 
 START_TEST(energy_and_tangent)
 {
+    keep();
+    nlc_options other = f.options;
+    other.model = NLC_MODEL_LOVE;
+    ck_assert_int_eq(nlc_set_options(f.s.network, &other, 0), NLC_OK);
+    keep();
+    demand(energy(), NLC_ERROR_NO_POTENTIAL, NLC_MODEL_LOVE);
+    demand(tangent(), NLC_ERROR_NO_POTENTIAL, NLC_MODEL_LOVE);
+    demand(inverse(), NLC_ERROR_NO_POTENTIAL, NLC_MODEL_LOVE);
+    demand(bound(), NLC_ERROR_NO_POTENTIAL, NLC_MODEL_LOVE);
+    other.model = NLC_MODEL_HALF_SPACE;
+    ck_assert_int_eq(nlc_set_options(f.s.network, &other, 0), NLC_OK);
+    keep();
+    demand(nlc_sweep(f.s.network, f.displacement, f.force, 0, f.s.normal, &f.info), NLC_ERROR_NULL, 3);
+    ck_assert_int_eq(nlc_set_options(f.s.network, &f.options, 0), NLC_OK);
     keep();
     demand(nlc_energy(0, f.F, f.force, f.s.overlap, f.s.normal, &f.info), NLC_ERROR_NULL, 0);
     demand(nlc_energy(f.s.network, 0, f.force, f.s.overlap, f.s.normal, &f.info), NLC_ERROR_NULL, 1);

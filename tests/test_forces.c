@@ -354,6 +354,7 @@ START_TEST(half_space_is_case_one_times_prefactor)
     scene_init(&s);
     s.options.tolerance = 1e-13;
     s.options.model = NLC_MODEL_HALF_SPACE;
+    s.options.points = NLC_POINTS_UNDEFORMED;
     s.options.prefactor = 0.7;
     scene_cluster(&s, &g, 9, 0.6);
     compare(&s, 0.7, 1e-12);

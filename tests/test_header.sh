@@ -43,7 +43,7 @@ AT(nlc_particles, wall_count, 80);
 
 #define O(field) OF(nlc_options, field)
 SIZE(nlc_options, 56, O(struct_size) + O(model) + O(method) + O(tolerance) + O(max_sweeps) + O(prefactor) + O(simd) +
-     O(reserved) + O(stiffness));
+     O(points) + O(stiffness));
 AT(nlc_options, struct_size, 0);
 AT(nlc_options, model, 8);
 AT(nlc_options, method, 12);
@@ -51,7 +51,7 @@ AT(nlc_options, tolerance, 16);
 AT(nlc_options, max_sweeps, 24);
 AT(nlc_options, prefactor, 32);
 AT(nlc_options, simd, 40);
-AT(nlc_options, reserved, 44);
+AT(nlc_options, points, 44);
 AT(nlc_options, stiffness, 48);
 
 #define I(field) OF(nlc_info, field)

@@ -329,7 +329,7 @@ static void make_block(rng *g, nlc_block *b, int n)
         b->y[c] = v[1];
         b->z[c] = v[2];
         b->force[c] = rng_sign(g) * rng_uniform(g, 0.1, 1);
-        b->radius2[c] = rng_uniform(g, 0, 0.1);
+        b->shape[c] = b->force[c] * rng_uniform(g, 0, 0.01);
         b->displacement[c] = rng_uniform(g, -1, 1); /* both are added to */
         b->second[c] = rng_uniform(g, -1, 1);
     }
@@ -343,9 +343,9 @@ static void add_pair(const nlc_block *a, int c, const nlc_block *b, int d, doubl
     const long double s = sqrtl(x * x + y * y + z * z) / 2;
     const double theta = fmin((double)(2 * asinl(fminl(s, 1))), PI), S = nlc_sphere_green(theta, nu);
     const double D = nlc_sphere_finite_size(theta, nu, 1);
-    sum[0] += b->force[d] * (S + (long double)b->radius2[d] * D / 10);
+    sum[0] -= b->force[d] * (long double)S + (long double)b->shape[d] * D;
     sum[1] += (long double)b->force[d] * D;
-    sum[2] += fabs(b->force[d]) * (1 / s + b->radius2[d] / (10 * s * s * s));
+    sum[2] += fabs(b->force[d]) / s + fabs(b->shape[d]) / (s * s * s);
     sum[3] += fabs(b->force[d]) / (s * s * s);
 }
 
@@ -366,12 +366,12 @@ START_TEST(sums_within)
     for (int n = 0; n <= NLC_BLOCK; n++) {
         const double nu = poissons[n % COUNT(poissons)];
         nlc_block a, before;
-        nlc_sphere_constants constants;
-        nlc_sphere_prepare(&constants, nu, 1);
+        nlc_kernel kernel;
+        nlc_sphere_model_prepare(&kernel, nu, 1);
         make_block(&g, &a, n);
         before = a;
         bool distinct = false;
-        nlc_assert_quiet(distinct = nlc_sphere_within(&a, &constants));
+        nlc_assert_quiet(distinct = nlc_sphere_within(&a, &kernel));
         ck_assert(distinct);
         for (int c = 0; c < n; c++) {
             long double sum[4] = {0};
@@ -390,14 +390,14 @@ START_TEST(sums_between)
         const int n = round < 8 ? round : 1 + (int)rng_below(&g, NLC_BLOCK), m = 1 + (int)rng_below(&g, NLC_BLOCK);
         const double nu = poissons[round % COUNT(poissons)];
         nlc_block a, b, a0, b0;
-        nlc_sphere_constants constants;
-        nlc_sphere_prepare(&constants, nu, 1);
+        nlc_kernel kernel;
+        nlc_sphere_model_prepare(&kernel, nu, 1);
         make_block(&g, &a, n);
         make_block(&g, &b, m);
         a0 = a;
         b0 = b;
         bool distinct = false;
-        nlc_assert_quiet(distinct = nlc_sphere_between(&a, &b, &constants));
+        nlc_assert_quiet(distinct = nlc_sphere_between(&a, &b, &kernel));
         ck_assert(distinct);
         for (int c = 0; c < n; c++) {
             long double sum[4] = {0};
@@ -413,12 +413,42 @@ START_TEST(sums_between)
 }
 END_TEST
 
+/* The tangent's coefficients, and the sum of their squares: the tolerances are those of the sums. */
+START_TEST(coefficients)
+{
+    rng g = {41};
+    for (int n = 1; n <= NLC_BLOCK; n++) {
+        const double nu = poissons[n % COUNT(poissons)];
+        nlc_block a;
+        nlc_kernel kernel;
+        double f[NLC_BLOCK];
+        long double squares = 0, scale = 0;
+        nlc_sphere_model_prepare(&kernel, nu, 1);
+        make_block(&g, &a, n);
+        for (int c = 0; c < n; c++) {
+            nlc_assert_quiet(nlc_sphere_coefficients(f, &a, c, &kernel));
+            for (int d = 0; d < c; d++) {
+                nlc_block one = a;
+                long double sum[4] = {0};
+                one.force[d] = 1;
+                one.shape[d] = a.shape[c] + a.shape[d];
+                add_pair(&a, c, &one, d, nu, sum);
+                nlc_assert_abs(f[d], (double)sum[0], 60 * EPS * (double)sum[2]);
+                squares += sum[0] * sum[0] * a.force[c] * a.force[d];
+                scale += fabsl(sum[0]) * sum[2] * fabs(a.force[c] * a.force[d]);
+            }
+        }
+        nlc_assert_abs(nlc_sphere_squares(&a, &kernel), (double)squares, 200 * EPS * (double)scale);
+    }
+}
+END_TEST
+
 /* Any two equal directions are noticed, without an exception; the closest that are not equal are no error. */
 START_TEST(coincidence)
 {
     rng g = {37};
-    nlc_sphere_constants constants;
-    nlc_sphere_prepare(&constants, 0.3, 1);
+    nlc_kernel kernel;
+    nlc_sphere_model_prepare(&kernel, 0.3, 1);
     for (int n = 2; n <= NLC_BLOCK; n++)
         for (int round = 0; round < 20; round++) {
             nlc_block a, b;
@@ -433,10 +463,10 @@ START_TEST(coincidence)
             b.z[d] = a.z[d];
             bool within = false, between = false;
             nlc_block copy = a;
-            nlc_assert_quiet(within = nlc_sphere_within(&copy, &constants));
+            nlc_assert_quiet(within = nlc_sphere_within(&copy, &kernel));
             ck_assert_int_eq(within, round % 2 == 0);
             if (round % 2) a.x[d] = -a.x[c]; /* away from b's d again */
-            nlc_assert_quiet(between = nlc_sphere_between(&a, &b, &constants));
+            nlc_assert_quiet(between = nlc_sphere_between(&a, &b, &kernel));
             ck_assert_int_eq(between, 0);
         }
 }
@@ -461,6 +491,7 @@ int main(void)
     tcase_add_test(t, domain);
     tcase_add_test(t, sums_within);
     tcase_add_test(t, sums_between);
+    tcase_add_test(t, coefficients);
     tcase_add_test(t, coincidence);
     suite_add_tcase(suite, t);
     return run_suite(suite);

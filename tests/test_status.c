@@ -105,7 +105,7 @@ START_TEST(values_are_for_good)
     ck_assert_int_eq(NLC_ERROR_ALIGNMENT, -8);
     ck_assert_int_eq(NLC_ERROR_NETWORK, -9);
     ck_assert_int_eq(NLC_ERROR_MODEL, -10);
-    ck_assert_int_eq(NLC_ERROR_NOT_AVAILABLE, -11);
+    ck_assert_int_eq(NLC_ERROR_NO_POTENTIAL, -11);
     ck_assert_int_eq(NLC_ERROR_METHOD, -12);
     ck_assert_int_eq(NLC_ERROR_OPTION, -13);
     ck_assert_int_eq(NLC_ERROR_RADIUS, -14);

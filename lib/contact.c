@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* contact.c - the circles of contact. */
+#include "contact.h"
+
+#define LARGEST_TILT 1e6
+
+void nlc_set_approach(nlc_network *n, const double *force)
+{
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        const int64_t i = n->i[c], j = n->j[c];
+        n->approach[c] = 0;
+        if (!(force[c] > 0)) continue;
+        const double x = nlc_hertz_overlap(nlc_join(n->stiffness[c], n->stiffness_unit), force[c]);
+        const double a = i < n->particle_count ? nlc_length_of(n, i) : INFINITY, b = j < n->particle_count ? nlc_length_of(n, j) : INFINITY;
+        const double cap = a < b ? a : b;
+        n->approach[c] = nlc_is_finite(x) && x < cap ? x : cap;
+    }
+}
+
+/* (1-nu^2)/E times a modulus */
+static double compliance(nlc_material m, double young)
+{
+    if (!nlc_is_finite(m.young)) return 0;
+    const nlc_scaled a = nlc_split(young), b = nlc_split(m.young);
+    return nlc_join((1 - m.poisson * m.poisson) * a.m / b.m, a.e - b.e);
+}
+
+double nlc_tilt(const nlc_network *n, int64_t e, int64_t particle)
+{
+    const nlc_material mine = n->materials[n->material[particle]], other = n->materials[n->material[nlc_other_body(n, e)]];
+    const double share = nlc_effective(n, e, n->radius[particle]);
+    const double q = compliance(mine, mine.young), p = compliance(other, mine.young);
+    const double chi = q / ((q + p) * (share > 1e-100 ? share : 1e-100));
+    return chi < LARGEST_TILT ? chi : LARGEST_TILT;
+}
+
+/* (a/R)^2 of a side */
+static double circle2(const nlc_network *n, int64_t e, int64_t particle, double length)
+{
+    return nlc_effective(n, e, n->radius[particle]) * (n->approach[e >> 1] / length);
+}
+
+double nlc_circle2(const nlc_network *n, int64_t e, int64_t particle)
+{
+    return circle2(n, e, particle, nlc_length_of(n, particle));
+}
+
+void nlc_set_shapes(nlc_block *b, const nlc_network *n, nlc_response response, const double *normal, int64_t particle, int64_t begin)
+{
+    const double length = nlc_length_of(n, particle);
+    const nlc_shape shape = n->settings.model->shape;
+    for (int d = 0; d < b->count; d++) {
+        const int64_t e = nlc_side_at(n, normal, begin + d);
+        if (shape == NLC_SHAPE_PLACE) {
+            b->shape[d] = n->own[e];
+            continue;
+        }
+        if (shape == NLC_SHAPE_POINT) {
+            b->shape[d] = 0;
+            continue;
+        }
+        const double t2 = circle2(n, e, particle, length);
+        if (shape == NLC_SHAPE_RADIUS) b->shape[d] = sqrt(t2);
+        else b->shape[d] = b->force[d] * t2 * (response == NLC_OF_CHANGES ? 1 / 6. : 0.1);
+    }
+}
+
+/*
+ * By how much the gap of spheres is wider at the rim than that of paraboloids, a^4 sum 1/R^3, in units of the particle's R: its
+ * own part, and that of a rigid other one, which has no side of its own.
+ */
+static double quartic(const nlc_network *n, int64_t e, int64_t particle, double t2)
+{
+    const int64_t other = nlc_other_body(n, e);
+    if (other >= n->particle_count || n->scale[other] > 0) return t2 * t2;
+    const double r = n->radius[particle], s = n->radius[other], larger = r > s ? r : s, ratio = (r / larger) / (s / larger + 1e-100);
+    return t2 * t2 * (1 + ratio * ratio * ratio);
+}
+
+/*
+ * Change of a side's displacement by its own force; moment and wide are parts of the displacement.  As a slope may be no lower than
+ * its floor, no contact counts as smaller than the floor says.
+ */
+static double own_slope(const nlc_network *n, int64_t e, int64_t particle, double U, double chi, double moment, double wide)
+{
+    const int64_t c = e >> 1;
+    const double k = nlc_join(n->stiffness[c], n->stiffness_unit) + 1e-150, least = n->floor[c] / k, root = sqrt(n->approach[c]);
+    const double x = root > least ? root : least, p = k * x * x * x + 1e-200, length = nlc_length_of(n, particle);
+    const double t2 = nlc_effective(n, e, n->radius[particle]) * (x * x / length);
+    const nlc_self self = n->settings.model->self(nlc_kernel_of(n, particle), t2 < 1 ? t2 : 1, chi);
+    return -U * self.slope - (moment * (2. / 3) + wide * (4. / 3)) / p;
+}
+
+void nlc_add_self(const nlc_block *b, nlc_network *n, nlc_response response, const double *force, const double *normal,
+                  int64_t particle, int64_t begin)
+{
+    const double length = nlc_length_of(n, particle), U = nlc_scale_of(n, particle);
+    for (int d = 0; d < b->count; d++) {
+        const int64_t e = nlc_side_at(n, normal, begin + d), c = e >> 1;
+        const double t2 = circle2(n, e, particle, length), chi = nlc_tilt(n, e, particle);
+        const double wide = quartic(n, e, particle, t2) * length, moment = t2 * b->second[d];
+        if (response == NLC_OF_CHANGES) {
+            n->side[e] += -moment / 6 + n->own[e] * force[c];
+            continue;
+        }
+        const nlc_self self = n->settings.model->self(nlc_kernel_of(n, particle), t2, chi);
+        const double p = 0.5 * (force[c] + fabs(force[c])); /* a pull acts as a point force */
+        if (response == NLC_OF_ENERGY) {
+            n->side[e] -= moment / 10 + U * p * self.energy + wide * (2. / 35);
+            continue;
+        }
+        n->side[e] -= moment / 6 + U * p * self.displacement + wide / 15;
+        n->own[e] = own_slope(n, e, particle, U, chi, moment / 6, wide / 15);
+    }
+}

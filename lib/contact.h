@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * contact.h - the circles of contact, for models that look at their size.
+ *
+ * A contact's circle has the radius a, a^2 = R_eff x with 1/R_eff = 1/R_i + 1/R_j and the overlap x = (P/k)^(2/3) that its force
+ * would need alone ([GC] 7 and 8).  No circle is taken for larger than the smaller of the two particles.
+ */
+#ifndef NLC_CONTACT_H
+#define NLC_CONTACT_H
+
+#include "network.h"
+
+/* Sets network->approach, the overlaps x, in units of 1 / network->per_length; forces and stiffnesses have theirs. */
+void nlc_set_approach(nlc_network *network, const double *force);
+
+/* The other body of a side; a wall's radius is infinite. */
+static inline int64_t nlc_other_body(const nlc_network *n, int64_t e)
+{
+    return e & 1 ? n->i[e >> 1] : n->j[e >> 1];
+}
+
+/* R_eff / R of a side on a particle of radius R */
+static inline double nlc_effective(const nlc_network *n, int64_t e, double R)
+{
+    const int64_t other = nlc_other_body(n, e);
+    return other < n->particle_count ? 0.5 * n->radius[other] / (0.5 * R + 0.5 * n->radius[other]) : 1;
+}
+
+/* (a/R)^2 of a side, R being the particle's radius. */
+double nlc_circle2(const nlc_network *network, int64_t side, int64_t particle);
+
+/* A particle's radius in the unit of overlaps, not 0. */
+static inline double nlc_length_of(const nlc_network *n, int64_t particle)
+{
+    const double r = nlc_join(n->radius[particle], n->length_unit);
+    return r > 1e-290 ? r : 1e-290;
+}
+
+/*
+ * How the traction under a contact is tilted: chi = (q_k / sum of q) (R_k / R_eff), q = (1-nu^2)/E.  1 between equal spheres and on
+ * a rigid plate: along the axis of the contact; 0 would be normal to the sphere.
+ */
+double nlc_tilt(const nlc_network *network, int64_t side, int64_t particle);
+
+/*
+ * places.c: where contact points are ([MC] III), from the displacements of the sides: on each surface or, where these overlap, midway
+ * between them.  Into network->own, see NLC_SHAPE_PLACE; no farther than R/2 from the undeformed surface.
+ */
+void nlc_set_places(nlc_network *network, const double *side, const double *overlap, double per_overlap);
+
+/* Parts of the displacements in network->current that the two sides have, to begin with: as they yield. */
+void nlc_split_sides(const nlc_network *network, double *side);
+
+/* Sets the shapes of a block from a place of a particle's list on. */
+void nlc_set_shapes(nlc_block *block, const nlc_network *network, nlc_response response, const double *normal, int64_t particle,
+                    int64_t begin);
+
+/* Adds to network->side what the second sum of such a block and each contact's own force make. */
+void nlc_add_self(const nlc_block *block, nlc_network *network, nlc_response response, const double *force, const double *normal,
+                  int64_t particle, int64_t begin);
+
+#endif

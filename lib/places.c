@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* places.c - contact points on displaced surfaces, [MC] III. */
+#include "contact.h"
+
+#define FARTHEST 0.5 /* from the undeformed surface, in units of R */
+
+static double yield_of(const nlc_network *n, int64_t body)
+{
+    return body < n->particle_count ? n->scale[body] : 0;
+}
+
+void nlc_set_places(nlc_network *n, const double *side, const double *overlap, double per_overlap)
+{
+    for (int64_t e = 0; e < 2 * n->contact_count; e++) {
+        const int64_t c = e >> 1, body = e & 1 ? n->j[c] : n->i[c];
+        n->own[e] = 0;
+        if (!(yield_of(n, body) > 0)) continue;
+        const double x = overlap[c] * per_overlap + side[2 * c] + side[2 * c + 1], overlapping = 0.5 * (x + fabs(x));
+        const double length = nlc_length_of(n, body), most = FARTHEST * length, place = side[e] - 0.5 * overlapping;
+        n->own[e] = (place > most ? most : place < -most ? -most : place) / length;
+    }
+}
+
+void nlc_split_sides(const nlc_network *n, double *side)
+{
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        const double a = yield_of(n, n->i[c]), b = yield_of(n, n->j[c]), larger = a > b ? a : b;
+        const double share = larger > 0 ? (a / larger) / (a / larger + b / larger) : 0;
+        side[2 * c] = share * n->current[c];
+        side[2 * c + 1] = b > 0 ? (1 - share) * n->current[c] : 0;
+    }
+}
