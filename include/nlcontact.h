@@ -386,11 +386,13 @@ NLC_API double nlc_sphere_finite_size(double theta, double nu, double chi);
  *
  *     S1 = Z + (7/6) al t + [ (4/3) be ln t + be/6 + (4/3) ga ] t^2
  *
- * To second order in t = a/R: the approach of the sphere's centre of mass and a rigid plate is a^2/R + a^4/(15 R^3) + U S1.
- * Z, al, be and ga depend on nu and chi: lib/sphere_prepare.c.
+ * To second order in t = a/R: the approach of the sphere's centre of mass and a rigid plate is a^2/R + a^4/(15 R^3) + U S1, a
+ * being the radius by Hertz' law.  Z, al, be and ga depend on nu and chi (lib/sphere_prepare.c); Z = -2(1-2nu)^2 ln t + ....  For
+ * chi = 1 the traction is that of a rigid plate or an equal sphere to this order; for other chi the tilt is taken as chi at every
+ * distance from the contact's centre, which is its leading order.
  *
  * t         contact radius / radius of the sphere, 0 < t <= 1
- * nu, chi   as for nlc_sphere_finite_size; in be and ga, chi counts as 1
+ * nu, chi   as for nlc_sphere_finite_size
  * Returns S1, > 0 into the body, in units of U.  Worst error 6e-15 (1 + chi^2) (1 + |ln t|).
  */
 NLC_API double nlc_sphere_self(double t, double nu, double chi);

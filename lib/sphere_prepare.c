@@ -92,17 +92,21 @@ static double constant(const nlc_sphere_series *f)
     return polynomial(f->smooth, NLC_SPHERE_SMOOTH, -1) + f->log[0] * ln2;
 }
 
-/* Sbar = Z + (1-2nu)^2/3 + al t + (be ln t + ga) t^2, and S1 = Sbar + (t/6) dSbar/dt. */
+/*
+ * Energy 2W = U P^2 Sbar of a contact's own force, beyond 12 pi (1-nu)/(5t) of a half-space, to order t^2; S1 = Sbar + (t/6)
+ * dSbar/dt.  The pressure is Hertz' per area seen along the axis, its tangential part chi tan(psi) of the normal one.  Terms
+ * of even order come from the logarithms and constants of S, B and the tangential answer to tangential traction: be is a fifth
+ * of D's logarithm, ga a fifth of D's constant and what the moments of the logarithms add, tools/sphere_self.py.
+ */
 static void prepare_self(nlc_sphere_constants *k, double nu, double chi)
 {
     const double m = 1 - nu, c = 1 - 2 * nu;
-    nlc_sphere_series d = {0};
-    prepare_d(&d, nu, 1);
     const double z = constant(&k->s) - 2 * c * c * (ln2 - 19 / 12.) - 2 * c * chi;
     const double al = pi * (m * (-6 / 7. * (2 * chi - 1) - 9 / 70. + 12 / 35. * chi * chi) +
                             9 / 35. * (m * (1 - 16 * nu * nu) + chi * (2 + 6 * nu - 8 * nu * nu)));
-    const double be = m * c * (16 * nu * nu - 8 * nu - 5) / 5;
-    const double ga = constant(&d) / 5 + be * (ln2 - 93 / 40.) + nu * (nu * (4.5 - 3.2 * nu) - 1.1) - 0.475;
+    const double be = k->d.log[0] / 5;
+    const double ga = constant(&k->d) / 5 + be * (ln2 - 93 / 40.) - 33 / 40. * c * c -
+                      chi * (25 + nu * (14 + nu * (64 * nu - 136))) / 20 + chi * chi * c * (16 - 5 * nu) / 10;
     k->energy[0] = z + c * c / 3;
     k->energy[1] = al;
     k->energy[2] = ga;

@@ -47,26 +47,30 @@ def legendre_sum(c, x):
     return total / (1 - x)**STEPS
 
 
-def constants(nu):
-    """C0 of S and C_D of D by the digamma function"""
+def constants(nu, chi):
+    """C0 of S and C_D of D by the digamma function: sum (b n + g)/N_n P_n = -b ln s + constant"""
     r = mp.mpc(-mp.mpf(1) / 2 - nu, mp.sqrt(mp.mpf(3) / 4 - nu * nu))
-    sums = lambda b, g: -2 * ((b * r + g) / (r - mp.conj(r)) * mp.digamma(-r)).real + b * mp.digamma(1)
+    constant = lambda b, g: -2 * ((b * r + g) / (r - mp.conj(r)) * mp.digamma(-r)).real + b * mp.digamma(1)
     b, g = 1 - 8 * nu + 8 * nu**2, -(2 + nu - 4 * nu**2)
-    C0 = -4 * (1 - nu) - 1 + sums(b, g) - (b + g) / (3 * (1 + nu)) + mode(1, nu)[0]
-    A, B, C = -4 * (1 - nu), -2 * (4 * nu**2 - 10 * nu + 5), 16 * nu**3 - 36 * nu**2 + 27 * nu - 6
-    b, g = (1 - nu) * (2 * nu - 1) * (16 * nu**2 - 8 * nu - 5), (1 - nu) * (16 * nu**3 - 4 * nu**2 - 13 * nu + 4)
-    return C0, sums(b, g) - 12 * (1 - 2 * nu) / (1 + nu) - (A + B + C + (b + g) / (3 * (1 + nu)))
+    C0 = -4 * (1 - nu) - 1 + constant(b, g) - (b + g) / (3 * (1 + nu)) + mode(1, nu)[0]
+    # D without n = 1 is A n^2 + B n + C + (b n + g)/N_n, found from five of its modes
+    D = lambda n: (2 - n * (n + 1)) * mode(n, nu)[0] - chi * (4 * mode(n, nu)[0] - 2 * n * (n + 1) * mode(n, nu)[1])
+    N = lambda n: n**2 + (1 + 2 * nu) * n + 1 + nu
+    some = [2, 3, 5, 8, 13]
+    A, B, C, b, g = mp.lu_solve(mp.matrix([[n * n, n, 1, n / N(n), 1 / N(n)] for n in some]), mp.matrix([D(n) for n in some]))
+    return C0, constant(b, g) + D(1) - (A + B + C + (b + g) / N(1)), -b
 
 
 def self_values(t, nu, chi):
-    C0, CD = constants(nu)
+    C0, CD, log_D = constants(nu, chi)
     L = mp.log(t)
     Z = C0 - 2 * (1 - 2 * nu)**2 * (L + mp.log(2) - mp.mpf(19) / 12) - 2 * (1 - 2 * nu) * chi
     q = lambda a, b: mp.mpf(a) / b
     al = mp.pi * ((1 - nu) * (-q(6, 7) * (2 * chi - 1) - q(9, 70) + q(12, 35) * chi**2) +
                   q(9, 35) * ((1 - nu) * (1 - 16 * nu**2) + chi * (2 + 6 * nu - 8 * nu**2)))
-    be = (1 - nu) * (1 - 2 * nu) * (16 * nu**2 - 8 * nu - 5) / 5
-    ga = CD / 5 + be * (mp.log(2) - q(93, 40)) - q(19, 40) - q(11, 10) * nu + q(9, 2) * nu**2 - q(16, 5) * nu**3
+    be = log_D / 5
+    ga = (CD / 5 + be * (mp.log(2) - q(93, 40)) - q(33, 40) * (1 - 2 * nu)**2 -
+          chi * (64 * nu**3 - 136 * nu**2 + 14 * nu + 25) / 20 + chi**2 * (1 - 2 * nu) * (16 - 5 * nu) / 10)
     return (Z + q(7, 6) * al * t + (q(4, 3) * be * L + be / 6 + q(4, 3) * ga) * t**2,
             Z + (1 - 2 * nu)**2 / 3 + al * t + (be * L + ga) * t**2)
 
