@@ -355,7 +355,8 @@ NLC_API double nlc_love_nonlocal_displacement(double force, double radius, doubl
  *     for n != 1,   s_1 = 9(1-2nu) / (5(1+nu))
  *
  * The modes of linear elasticity, no approximation.  s_1 makes it the displacement relative to the centre of mass, whether the
- * forces on the sphere balance, accelerate it or are balanced by a uniform body force such as its weight.  At small angles S = 2(1-nu)/s - 2(1-2nu)^2 ln s + ..., s = sin(theta/2).
+ * forces on the sphere balance, accelerate it or are balanced by a uniform body force such as its weight.  At small angles
+ * S = 2(1-nu)/s - 2(1-2nu)^2 ln s + ..., s = sin(theta/2).
  *
  * theta   angle, seen from the centre, between the force and the point looked at, 0 < theta <= pi [rad]
  * nu      Poisson's ratio, 0 <= nu <= 0.5
@@ -377,7 +378,7 @@ NLC_API double nlc_sphere_green(double theta, double nu);
  * chi         tilt of the traction, 0 <= chi <= 1e60: 1 where it acts along the axis of the contact, as between equal spheres and
  *             on a rigid plate, 0 where it is normal to the sphere.  Of side k of a contact of unequal ones,
  *             chi = (q_k / sum q) (R_k / R_eff), q = (1-nu^2)/E, 1/R_eff = sum of 1/R.  D is linear in it.
- * Returns D.  Worst error 4e-13 (1 + chi) / s^3, s = sin(theta/2).
+ * Returns D.  Worst error 3e-13 (1 + chi) / s^3, s = sin(theta/2).
  */
 NLC_API double nlc_sphere_finite_size(double theta, double nu, double chi);
 

@@ -20,7 +20,7 @@
 #define EPS DBL_EPSILON
 #define COUNT(x) ((int)(sizeof(x) / sizeof *(x)))
 #define S_ERROR 2e-13 /* of the header */
-#define D_ERROR 4e-13
+#define D_ERROR 3e-13
 #define SELF_ERROR 6e-15
 
 static const double poissons[] = {0, 0.05, 0.2, 0.25, 1 / 3., 0.45, 0.499, 0.5};

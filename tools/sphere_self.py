@@ -3,8 +3,8 @@
 """Derives be and ga of a contact's own displacement on an elastic sphere (lib/sphere_prepare.c), and checks Z, al, be, ga.
 
 Unit sphere, unit force, contact rho <= t, rho = sin psi.  Per area seen along the axis the force is Hertz' p(rho); normal part g,
-tangential part chi g tan psi, g cos psi + chi g sin^2 psi / cos psi = p, so g = p (1 + (1/2 - chi) rho^2 + ...).  With d = div(g rho)
-in the plane and tau = chi g tan psi, int tau f' = -chi int d f for every f, and the energy is, in units of U/2,
+tangential part chi g tan psi, g cos psi + chi g sin^2 psi / cos psi = p, so g = p (1 + (1/2 - chi) rho^2 + ...).  With
+d = div(g rho) in the plane and tau = chi g tan psi, int tau f' = -chi int d f for every f, and the energy is, in units of U/2,
     double integral of  g g' S(h) + 2 chi g d' B(h) + chi^2 d d' K(h),   h^2 = r^2 + (rho^2 - rho'^2)^2 / 4 + ...,
 with r the distance in the plane, B the tangential displacement by a normal force, K that by a tangential one, n(n+1) taken out.
 S, B, K at small s = h/2: odd powers of s, which give odd powers of t, and
