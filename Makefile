@@ -50,7 +50,7 @@ SHARED := $(B)/libnlcontact.so.$(VERSION)
 PC := $(B)/nlcontact.pc
 MAN := $(sort $(wildcard $(S)/man/*.3))
 
-.PHONY: all help lib demo bench packing check setup install uninstall dist clean FORCE
+.PHONY: all help lib demo bench accuracy packing check setup install uninstall dist clean FORCE
 all: lib packing ## build the libraries and the packing program
 lib: $(STATIC) $(SHARED) ## build the static and the shared library
 
@@ -80,9 +80,9 @@ $(PC): FORCE
 		-e 's|@libdir@|$(patsubst $(exec_prefix)/%,$${exec_prefix}/%,$(libdir))|' \
 		-e 's|@includedir@|$(patsubst $(prefix)/%,$${prefix}/%,$(includedir))|' -e 's|@version@|$(VERSION)|' $(S)/nlcontact.pc.in > $@
 
-# ---- programs on a packing
+# ---- programs on a packing, and on single spheres
 BENCH_SRC := $(sort $(wildcard $(S)/bench/*.c))
-BENCH_MAIN := $(filter %/packing.c %/bench.c %/steps.c,$(BENCH_SRC))
+BENCH_MAIN := $(filter %/packing.c %/bench.c %/steps.c %/accuracy.c,$(BENCH_SRC))
 BENCH_COMMON := $(patsubst $(S)/%.c,$(B)/%.o,$(filter-out $(BENCH_MAIN),$(BENCH_SRC)))
 
 $(B)/bench/%.o: $(S)/bench/%.c
@@ -98,6 +98,9 @@ PACKING ?= $(S)/bench/data/a_mono1000_periodic.csv
 bench: $(B)/bench/bench $(B)/bench/steps ## time the library against Algorithm 1 as printed; PACKING=file for a packing of your own
 	@$(B)/bench/bench $(PACKING)
 	@$(B)/bench/steps $(PACKING)
+REFERENCES = $(filter-out %/hertz_pressure.csv,$(foreach d,reference fe,$(sort $(wildcard $(S)/bench/data/$(d)/*.csv))))
+accuracy: $(B)/bench/accuracy ## the models' forces beside exact elasticity and finite elements: a table, a chart
+	@$(B)/bench/accuracy --csv $(B)/accuracy.csv --svg $(B)/accuracy.svg $(REFERENCES)
 
 # ---- tests
 TEST_SRC := $(sort $(wildcard $(S)/tests/test_*.c))
@@ -114,7 +117,7 @@ $(B)/tests/%.o: $(S)/tests/%.c
 $(B)/tests/%: $(B)/tests/%.o $(TEST_COMMON) $(BENCH_COMMON) $(STATIC)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK_LIBS) $(LIBS)
 
-check: lib packing $(TESTS) ## build and run every test (needs what `make setup` installs)
+check: lib packing $(B)/bench/accuracy $(TESTS) ## build and run every test (needs what `make setup` installs)
 	@S='$(abspath $(S))' B='$(abspath $(B))' CC='$(CC)' CXX='$(CXX)' MAKE='$(MAKE)' EMULATOR='$(EMULATOR)' \
 		PKG_CONFIG='$(PKG_CONFIG)' VERSION='$(VERSION)' sh $(S)/tests/run $(abspath $(TESTS) $(TEST_SCRIPTS))
 
