@@ -19,8 +19,7 @@ static const char usage[] =
     "Computes the forces on a sphere, mostly between rigid plates, by the library's models and prints how far\n"
     "they are from those in the tables.\n"
     "\n"
-    "  --models LIST   numbers of models as in nlcontact.h (default: 1,0,3,4,5; 2, the half-space, has\n"
-    "                  the same forces as 0)\n"
+    "  --models LIST   numbers of models as in nlcontact.h (default: all)\n"
     "  --csv FILE      write all forces\n"
     "  --svg FILE      write a chart\n"
     "\n"
@@ -38,8 +37,8 @@ static const double poissons[] = {0, .1, .2, .3, .4, .46, .5};
 enum { EPS_LIMITS = sizeof eps_limits / sizeof eps_limits[0], POISSONS = sizeof poissons / sizeof poissons[0] };
 
 typedef struct job {
-    const accuracy_model *model[MODELS], *missing[MODELS];
-    int models, missings;
+    const accuracy_model *model[MODELS];
+    int models;
     reference_table *table; /* [tables] */
     int tables;
     accuracy_results results;
@@ -223,9 +222,6 @@ static void print_all(const job *j)
          "** finite strain, which is not these models' theory");
     for (int m = 0; m < j->models; m++)
         if (j->warnings[m]) printf("%s: %d rows with a warning\n", j->model[m]->name, j->warnings[m]);
-    for (int m = 0; m < j->missings; m++)
-        printf("%s%s", m ? ", " : "not in this version of the library: ", j->missing[m]->name);
-    if (j->missings) putchar('\n');
 }
 
 /* ---- command line */
@@ -255,7 +251,7 @@ static int choose_models(job *j, const char *list)
 static int parse_arguments(job *j, int argc, char **argv, int *status)
 {
     int k = 1;
-    *status = choose_models(j, "1,0,3,4,5");
+    *status = choose_models(j, "1,0,2,3,5,4");
     for (; k < argc && argv[k][0] == '-'; k += 2) {
         if (strcmp(argv[k], "--help") == 0) {
             fputs(usage, stdout);
@@ -298,20 +294,6 @@ static int read_tables(job *j, char **path, int count)
     return j->results.point ? 0 : fail("", "out of memory");
 }
 
-/* Takes models that this version does not have out of the list. */
-static void find_missing(job *j)
-{
-    double force[REFERENCE_CONTACTS];
-    int kept = 0;
-    for (int m = 0; m < j->models; m++) {
-        if (solve(&j->table[0], &j->table[0].row[0], j->model[m]->number, force) == NLC_ERROR_NOT_AVAILABLE)
-            j->missing[j->missings++] = j->model[m];
-        else
-            j->model[kept++] = j->model[m];
-    }
-    j->models = kept;
-}
-
 static int run_rows(job *j)
 {
     for (int m = 0; m < j->models; m++)
@@ -331,7 +313,6 @@ static int close_file(FILE *f, const char *path)
 
 static int run(job *j)
 {
-    find_missing(j);
     if (j->csv_path) {
         j->csv = fopen(j->csv_path, "w");
         if (!j->csv) return fail(j->csv_path, strerror(errno));
