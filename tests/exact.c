@@ -184,7 +184,8 @@ long double exact_end(const scene *s, long double limit, long double precision)
     exact_init(&e, s);
     long double low = 0, high = limit;
     if (exact_move(&e, limit)) low = INFINITY;
-    while (low < high && high - low > precision * high) { /* exact_move stops just below the end */
+    else low = e.load, high = fminl(limit, low + 4e-7L * limit); /* it stops there: see its shortest step */
+    while (low < high && high - low > precision * high) {
         low = e.load;
         const long double middle = (low + high) / 2;
         if (exact_move(&e, middle)) low = middle;
