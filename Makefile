@@ -50,7 +50,7 @@ SHARED := $(B)/libnlcontact.so.$(VERSION)
 PC := $(B)/nlcontact.pc
 MAN := $(sort $(wildcard $(S)/man/*.3))
 
-.PHONY: all help lib demo bench accuracy packing check setup install uninstall dist clean FORCE
+.PHONY: all help lib demo bench accuracy packing check stress setup install uninstall dist clean FORCE
 all: lib packing ## build the libraries and the packing program
 lib: $(STATIC) $(SHARED) ## build the static and the shared library
 
@@ -120,6 +120,9 @@ $(B)/tests/%: $(B)/tests/%.o $(TEST_COMMON) $(BENCH_COMMON) $(STATIC)
 check: lib packing $(B)/bench/accuracy $(TESTS) ## build and run every test (needs what `make setup` installs)
 	@S='$(abspath $(S))' B='$(abspath $(B))' CC='$(CC)' CXX='$(CXX)' MAKE='$(MAKE)' EMULATOR='$(EMULATOR)' \
 		PKG_CONFIG='$(PKG_CONFIG)' VERSION='$(VERSION)' sh $(S)/tests/run $(abspath $(TESTS) $(TEST_SCRIPTS))
+
+stress: $(B)/tests/test_stress ## the solver on its whole grid of scenes, with a table; a few minutes
+	@NLC_TEST_FULL=1 $(EMULATOR) $<
 
 setup: ## install what the tests need with the system's package manager
 	@sh $(S)/tests/setup

@@ -1,116 +1,24 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
- * test_solver.c - few sweeps, a tolerance that is kept up to the end of the stable branch, and what happens beyond it.
+ * test_solver.c - hard scenes one by one: crowds, close pairs, what happens beyond the end of the stable branch, slow changes.
  *
- * Against the solution that is continuously connected to zero load (exact.h).  "Load" is relative to the first singularity or,
- * where that lies beyond, to a strain of 20 %.  Floating-point traps are on.
+ * Against the solution that is continuously connected to zero load (exact.h).  "Load" is relative to the first singularity.
+ * Floating-point traps are on.  The grid of all that is ordinary is test_stress.c.
  */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "exact.h"
-
-static const double poisson[] = {0, 0.1, 0.2, 0.3, 0.4, 0.45, 0.49, 0.5};
-static const char *const names[] = {"sc", "bcc", "fcc"};
-
-typedef struct result {
-    nlc_status status;
-    nlc_info info;
-    double error; /* of the forces, relative to the largest nearby */
-} result;
+#include "stress.h"
 
 /* Solves with the overlaps times load from the nonlocal displacements there are, and compares with e, which is there. */
-static result solve_at(scene *s, const exact *e, double load, double tolerance)
+static trial solve_at(scene *s, const exact *e, double load, double tolerance)
 {
-    result r = {.info = {.struct_size = sizeof r.info}};
-    double *overlap = malloc((size_t)s->contacts * sizeof *overlap);
-    s->options.tolerance = tolerance;
-    if (!s->network) ck_assert_int_eq(scene_build(s), NLC_OK);
-    else ck_assert_int_eq(nlc_set_options(s->network, &s->options, 0), NLC_OK);
-    for (int64_t c = 0; c < s->contacts; c++) overlap[c] = load * s->overlap[c];
-    fp_trap();
-    r.status = nlc_solve(s->network, s->force, s->nonlocal, overlap, s->normal, &r.info);
-    fp_untrap();
-    for (int64_t c = 0; c < s->contacts; c++) ck_assert(isfinite(s->force[c]) && s->force[c] >= 0 && isfinite(s->nonlocal[c]));
+    trial r = solve_load(s, load, tolerance);
     if (e) r.error = scene_error(s, s->force, e->force);
-    free(overlap);
     return r;
 }
-
-static void cold(scene *s)
-{
-    if (s->nonlocal) memset(s->nonlocal, 0, (size_t)s->contacts * sizeof *s->nonlocal);
-}
-
-/* Load factor of a scene's last stable state, or that of 20 % strain where it has overlaps 2 R strain. */
-static double end_of(const scene *s, double strain)
-{
-    const long double end = exact_end(s, 0.2L / strain, 1e-7L);
-    return end < INFINITY ? (double)end : 0.2 / strain;
-}
-
-static const double loads[] = {0.5, 0.9, 0.99, 0.999};
-
-/*
- * A scene at the four loads, cold: converged, within the tolerance, in so many sweeps at 1e-10.  The exact solution's own
- * error is some 1e-17 / (1 - lambda).
- */
-static void at_four_loads(scene *s, double end, const int *sweeps, const char *name, double nu, int *most)
-{
-    exact e;
-    exact_init(&e, s);
-    for (int l = 0; l < 4; l++) {
-        const double load = loads[l] * end;
-        ck_assert_msg(exact_move(&e, load), "%s nu %g: no solution at %g", name, nu, loads[l]);
-        for (double tolerance = 1e-10; tolerance < 1; tolerance *= 1e4) {
-            cold(s);
-            const result r = solve_at(s, &e, load, tolerance);
-            if (verbose() && tolerance < 1e-9)
-                printf("%-8s nu %.2f load %.3f: %d sweeps, %jd blocks, error %.1e, lambda %.4f in [%.4f, %.4f]\n", name, nu, loads[l],
-                       (int)r.info.sweeps, (intmax_t)r.info.blocks, r.error, (double)e.lambda, r.info.lambda_lower,
-                       r.info.lambda_upper);
-            ck_assert_msg((r.status & ~NLC_WARNING_CLOSE) == NLC_OK, "%s nu %g load %g tolerance %g: %s", name, nu, loads[l], tolerance, nlc_strerror(r.status));
-            ck_assert_msg(r.error <= tolerance, "%s nu %g load %g: error %g, tolerance %g", name, nu, loads[l], r.error, tolerance);
-            ck_assert(r.info.residual <= tolerance && r.info.coupling == 1 && r.info.weakened == 0);
-            ck_assert(r.info.lambda_upper >= (double)e.lambda - 1e-6 - tolerance); /* it is that of the forces found */
-            ck_assert(r.info.lambda_lower <= (double)e.lambda + 0.02); /* Ritz values on the way may be of steeper states */
-            if (tolerance < 1e-9) {
-                ck_assert_msg(r.info.sweeps <= sweeps[l], "%s nu %g load %g: %d sweeps", name, nu, loads[l], (int)r.info.sweeps);
-                if (most) most[l] = r.info.sweeps > most[l] ? (int)r.info.sweeps : most[l];
-            }
-        }
-    }
-    exact_free(&e);
-}
-
-START_TEST(cells)
-{
-    for (int a = 0; a < 8; a++) {
-        scene s;
-        scene_init(&s);
-        scene_cell(&s, (lattice)_i, 1, 1, poisson[a], (const double[]){0.99, 0.99, 0.99});
-        at_four_loads(&s, end_of(&s, 0.01), (const int[]){6, 8, 10, 12}, names[_i], poisson[a], 0);
-        scene_free(&s);
-    }
-}
-END_TEST
-
-START_TEST(crystals)
-{
-    int most[4] = {0};
-    for (int a = 0; a < 8; a++) {
-        rng g = {(uint64_t)a + 1};
-        scene s;
-        scene_init(&s);
-        scene_lattice(&s, (lattice)_i, _i == 0 ? 4 : 3, 1, poisson[a], 0.05, 1e-3, &g);
-        at_four_loads(&s, end_of(&s, 0.05), (const int[]){15, 20, 28, 30}, names[_i], poisson[a], most);
-        scene_free(&s);
-    }
-    if (verbose()) printf("%s: at most %d %d %d %d sweeps\n", names[_i], most[0], most[1], most[2], most[3]);
-}
-END_TEST
 
 /* Many small spheres on a large one: eigenvalues far below -1, where the fixed point oscillates, and more than one block. */
 START_TEST(crowded_sphere)
@@ -131,7 +39,7 @@ START_TEST(crowded_sphere)
     ck_assert(exact_move(&e, 1));
     for (double tolerance = 1e-10; tolerance < 1; tolerance *= 1e4) {
         cold(&s);
-        const result r = solve_at(&s, &e, 1, tolerance);
+        const trial r = solve_at(&s, &e, 1, tolerance);
         if (verbose()) printf("%d small ones: %d sweeps, error %.1e\n", z, (int)r.info.sweeps, r.error);
         ck_assert_int_eq(r.status & ~NLC_WARNING_CLOSE, NLC_OK);
         ck_assert(r.error <= tolerance);
@@ -173,7 +81,7 @@ START_TEST(close_pairs)
         }
         exact_init(&e, &s);
         const bool stable = exact_move(&e, 1);
-        const result r = solve_at(&s, stable ? &e : 0, 1, 1e-6);
+        const trial r = solve_at(&s, stable ? &e : 0, 1, 1e-6);
         if (stable && (r.status & ~NLC_WARNING_CLOSE) == NLC_OK) {
             ck_assert(r.error < 1e-3 || r.status == NLC_WARNING_CLOSE);
             ck_assert_msg(r.error <= 1e-6 || r.error > 1e-3, "seed %d: error %g", seed, r.error);
@@ -203,33 +111,6 @@ static const char *ending(scene *s, int which, double *end)
     return label[which];
 }
 
-/* Packings scaled up: the tolerance is kept, in so many sweeps. */
-START_TEST(packings)
-{
-    const int sweeps[] = {20, 36, 60};
-    double end;
-    scene s;
-    exact e;
-    const char *name = ending(&s, 6 + _i, &end);
-    exact_init(&e, &s);
-    for (int l = 0; l < 3; l++) {
-        ck_assert(exact_move(&e, loads[l] * end));
-        for (double tolerance = 1e-10; tolerance < 1e-3; tolerance *= 1e4) {
-            cold(&s);
-            const result r = solve_at(&s, &e, loads[l] * end, tolerance);
-            if (verbose())
-                printf("%s, load %g, tolerance %g: %d sweeps, %jd blocks, error %.1e\n", name, loads[l], tolerance, (int)r.info.sweeps,
-                       (intmax_t)r.info.blocks, r.error);
-            ck_assert_int_eq(r.status & ~NLC_WARNING_CLOSE, NLC_OK);
-            ck_assert(r.error <= tolerance && r.info.coupling == 1);
-            ck_assert_int_le(r.info.sweeps, sweeps[l]);
-        }
-    }
-    exact_free(&e);
-    scene_free(&s);
-}
-END_TEST
-
 /*
  * Through the end and far beyond it: weakened, converged, finite, the same from another start, and continuous: forces move by
  * at most 50 h of the largest force nearby when the load moves by h.  At 99.5 % nothing is altered yet.
@@ -245,12 +126,12 @@ START_TEST(beyond_the_end)
     rng g = {4};
     for (int l = 0; l < 6; l++) {
         cold(&s);
-        const result r = solve_at(&s, 0, factors[l] * end, 1e-10);
+        const trial r = solve_at(&s, 0, factors[l] * end, 1e-10);
         for (int64_t c = 0; c < s.contacts; c++) kept[c] = s.force[c];
-        const result moved = solve_at(&s, 0, factors[l] * end * (1 + h), 1e-10);
+        const trial moved = solve_at(&s, 0, factors[l] * end * (1 + h), 1e-10);
         const double step = scene_error(&s, s.force, kept);
         for (int64_t c = 0; c < s.contacts; c++) s.nonlocal[c] = factors[l] * end * s.overlap[c] * rng_uniform(&g, -1, 3);
-        const result again = solve_at(&s, 0, factors[l] * end, 1e-10);
+        const trial again = solve_at(&s, 0, factors[l] * end, 1e-10);
         const double other = scene_error(&s, s.force, kept);
         if (verbose())
             printf("%s, load %g: status %d %d %d, %d %d %d sweeps, %jd blocks, coupling %.4f, weakened %jd, moves %.1f h, start %.1e\n",
@@ -326,12 +207,9 @@ int main(void)
     Suite *suite = suite_create("solver");
     TCase *t = tcase_create("stable");
     tcase_set_timeout(t, 120);
-    tcase_add_loop_test(t, cells, 0, 3);
-    tcase_add_loop_test(t, crystals, 0, 3);
     tcase_add_loop_test(t, crowded_sphere, 0, 3);
     tcase_add_test(t, close_pairs);
     tcase_add_test(t, slow_compression);
-    tcase_add_loop_test(t, packings, 0, 2);
     tcase_add_loop_test(t, beyond_the_end, 0, ENDING);
     suite_add_tcase(suite, t);
     return run_suite(suite);
