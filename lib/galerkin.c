@@ -174,6 +174,10 @@ static bool refresh(nlc_iteration *q, progress *s, nlc_outcome *out)
 static verdict iterate(nlc_iteration *q, progress *s, nlc_outcome *out)
 {
     if (!refresh(q, s, out)) return DONE;
+    if (nlc_is_repelled(q)) {
+        nlc_relax(q);
+        if (!refresh(q, s, out)) return DONE;
+    }
     for (bool first = true;; first = false) {
         if (!first) nlc_evaluate(q);
         if (!s->exact && (q->largest_residual <= s->refresh * q->largest_force || s->since >= LINEAR_STEPS) && !refresh(q, s, out))

@@ -60,6 +60,11 @@ void nlc_choose_step(nlc_iteration *q);
 /* Takes it; keeps the last step, or (all) the last two and two Ritz vectors, as directions. */
 void nlc_take_step(nlc_iteration *q, bool all);
 
+/* relax.c: whether contacts push each other away by this many times the largest overlap nearby; a better start for such scenes. */
+#define NLC_REPELLED 1.5
+bool nlc_is_repelled(const nlc_iteration *q);
+void nlc_relax(nlc_iteration *q);
+
 /* scales.c: largest force on every body into network->largest: of the law, or the larger of it and the iterate. */
 void nlc_force_scales(nlc_iteration *q, bool iterate_too);
 /* Largest |value| over the scale of its contact; *where it is. */
