@@ -172,7 +172,9 @@ static void put(nlc_block *b, const nlc_network *n, const double *normal, int64_
     b->z[b->count] = out * v[2];
     b->force[b->count] = nlc_scale_of(n, particle) * n->force[e >> 1];
     b->shape[b->count] = shape == NLC_SHAPE_RADIUS ? sqrt(t2) : b->force[b->count] * t2 / 10;
-    b->second[b->count] = 0;
+    b->tilt[b->count] = shape == NLC_SHAPE_MOMENTS ? nlc_tilt(n, e, particle) : 0;
+    b->tilted |= fabs(b->tilt[b->count]) > NLC_NO_TILT;
+    b->second[b->count] = b->third[b->count] = 0;
     b->displacement[b->count++] = 0;
 }
 
@@ -180,6 +182,7 @@ static void put(nlc_block *b, const nlc_network *n, const double *normal, int64_
 static void take(nlc_block *b, int64_t *entry, const nlc_network *n, const double *normal, int64_t k, int64_t *place, bool force)
 {
     const int64_t end = n->start[k + 1];
+    b->tilted = false;
     b->count = 0;
     for (; *place < end && b->count < NLC_BLOCK; ++*place) {
         const int64_t e = nlc_side_at(n, normal, *place);

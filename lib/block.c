@@ -34,6 +34,7 @@ static double own_of(const nlc_network *n, int64_t e)
 static bool gather_active(nlc_block *b, int64_t *entry, const nlc_network *n, const double *normal, int64_t particle)
 {
     const bool circles = n->settings.model->shape == NLC_SHAPE_MOMENTS;
+    b->tilted = false;
     b->count = 0;
     for (int64_t p = n->start[particle]; p < n->start[particle + 1]; p++) {
         const int64_t e = nlc_side_at(n, normal, p);
@@ -45,6 +46,8 @@ static bool gather_active(nlc_block *b, int64_t *entry, const nlc_network *n, co
         b->z[b->count] = out * v[2];
         b->force[b->count] = weight_of(n, e);
         b->shape[b->count] = circles ? nlc_circle2(n, e, particle) / 6 : 0; /* as the tangent has it */
+        b->tilt[b->count] = circles ? nlc_tilt(n, e, particle) : 0;
+        b->tilted |= circles && fabs(b->tilt[b->count]) > NLC_NO_TILT;
         entry[b->count++] = e;
     }
     return true;

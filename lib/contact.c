@@ -17,21 +17,12 @@ void nlc_set_approach(nlc_network *n, const double *force)
     }
 }
 
-/* (1-nu^2)/E times a modulus */
-static double compliance(nlc_material m, double young)
-{
-    if (!nlc_is_finite(m.young)) return 0;
-    const nlc_scaled a = nlc_split(young), b = nlc_split(m.young);
-    return nlc_join((1 - m.poisson * m.poisson) * a.m / b.m, a.e - b.e);
-}
-
 double nlc_tilt(const nlc_network *n, int64_t e, int64_t particle)
 {
-    const nlc_material mine = n->materials[n->material[particle]], other = n->materials[n->material[nlc_other_body(n, e)]];
+    const double q = nlc_kernel_of(n, particle)->compliance, p = nlc_kernel_of(n, nlc_other_body(n, e))->compliance;
     const double share = nlc_effective(n, e, n->radius[particle]);
-    const double q = compliance(mine, mine.young), p = compliance(other, mine.young);
-    const double chi = q / ((q + p) * (share > 1e-100 ? share : 1e-100));
-    return chi < LARGEST_TILT ? chi : LARGEST_TILT;
+    const double chi = (q / (q + p + 1e-300)) / (share > 1e-100 ? share : 1e-100);
+    return (chi < LARGEST_TILT ? chi : LARGEST_TILT) - 1;
 }
 
 /* (a/R)^2 of a side */
@@ -49,6 +40,7 @@ void nlc_set_shapes(nlc_block *b, const nlc_network *n, nlc_response response, c
 {
     const double length = nlc_length_of(n, particle);
     const nlc_shape shape = n->settings.model->shape;
+    b->tilted = false;
     for (int d = 0; d < b->count; d++) {
         const int64_t e = nlc_side_at(n, normal, begin + d);
         if (shape == NLC_SHAPE_PLACE) {
@@ -60,8 +52,13 @@ void nlc_set_shapes(nlc_block *b, const nlc_network *n, nlc_response response, c
             continue;
         }
         const double t2 = circle2(n, e, particle, length);
-        if (shape == NLC_SHAPE_RADIUS) b->shape[d] = sqrt(t2);
-        else b->shape[d] = b->force[d] * t2 * (response == NLC_OF_CHANGES ? 1 / 6. : 0.1);
+        if (shape == NLC_SHAPE_RADIUS) {
+            b->shape[d] = sqrt(t2);
+            continue;
+        }
+        b->shape[d] = b->force[d] * t2 * (response == NLC_OF_CHANGES ? 1 / 6. : 0.1);
+        b->tilt[d] = nlc_tilt(n, e, particle);
+        b->tilted |= fabs(b->tilt[d]) > NLC_NO_TILT;
     }
 }
 
@@ -81,14 +78,16 @@ static double quartic(const nlc_network *n, int64_t e, int64_t particle, double 
  * Change of a side's displacement by its own force; moment and wide are parts of the displacement.  As a slope may be no lower than
  * its floor, no contact counts as smaller than the floor says.
  */
-static double own_slope(const nlc_network *n, int64_t e, int64_t particle, double U, double chi, double moment, double wide)
+static double own_slope(const nlc_network *n, int64_t e, int64_t particle, nlc_self self, double tilt, double moment, double wide)
 {
     const int64_t c = e >> 1;
     const double k = nlc_join(n->stiffness[c], n->stiffness_unit) + 1e-150, least = n->floor[c] / k, root = sqrt(n->approach[c]);
-    const double x = root > least ? root : least, p = k * x * x * x + 1e-200, length = nlc_length_of(n, particle);
-    const double t2 = nlc_effective(n, e, n->radius[particle]) * (x * x / length);
-    const nlc_self self = n->settings.model->self(nlc_kernel_of(n, particle), t2 < 1 ? t2 : 1, chi);
-    return -U * self.slope - (moment * (2. / 3) + wide * (4. / 3)) / p;
+    const double x = root > least ? root : least, p = k * x * x * x + 1e-200;
+    if (root < least) {
+        const double t2 = nlc_effective(n, e, n->radius[particle]) * (x * x / nlc_length_of(n, particle));
+        self = n->settings.model->self(nlc_kernel_of(n, particle), t2 < 1 ? t2 : 1, tilt);
+    }
+    return -nlc_scale_of(n, particle) * self.slope - (moment * (2. / 3) + wide * (4. / 3)) / p;
 }
 
 void nlc_add_self(const nlc_block *b, nlc_network *n, nlc_response response, const double *force, const double *normal,
@@ -97,19 +96,19 @@ void nlc_add_self(const nlc_block *b, nlc_network *n, nlc_response response, con
     const double length = nlc_length_of(n, particle), U = nlc_scale_of(n, particle);
     for (int d = 0; d < b->count; d++) {
         const int64_t e = nlc_side_at(n, normal, begin + d), c = e >> 1;
-        const double t2 = circle2(n, e, particle, length), chi = nlc_tilt(n, e, particle);
-        const double wide = quartic(n, e, particle, t2) * length, moment = t2 * b->second[d];
+        const double t2 = circle2(n, e, particle, length), moment = t2 * (b->second[d] + b->tilt[d] * b->third[d]);
         if (response == NLC_OF_CHANGES) {
             n->side[e] += -moment / 6 + n->own[e] * force[c];
             continue;
         }
-        const nlc_self self = n->settings.model->self(nlc_kernel_of(n, particle), t2, chi);
+        const nlc_self self = n->settings.model->self(nlc_kernel_of(n, particle), t2, b->tilt[d]);
         const double p = 0.5 * (force[c] + fabs(force[c])); /* a pull acts as a point force */
+        const double wide = quartic(n, e, particle, t2) * length;
         if (response == NLC_OF_ENERGY) {
             n->side[e] -= moment / 10 + U * p * self.energy + wide * (2. / 35);
             continue;
         }
         n->side[e] -= moment / 6 + U * p * self.displacement + wide / 15;
-        n->own[e] = own_slope(n, e, particle, U, chi, moment / 6, wide / 15);
+        n->own[e] = own_slope(n, e, particle, self, b->tilt[d], moment / 6, wide / 15);
     }
 }

@@ -38,8 +38,9 @@ static inline double nlc_length_of(const nlc_network *n, int64_t particle)
 
 /*
  * How the traction under a contact is tilted: chi = (q_k / sum of q) (R_k / R_eff), q = (1-nu^2)/E.  1 between equal spheres and on
- * a rigid plate: along the axis of the contact; 0 would be normal to the sphere.
+ * a rigid plate: along the axis of the contact; 0 would be normal to the sphere.  Returns chi - 1.
  */
+#define NLC_NO_TILT 1e-12 /* rounding */
 double nlc_tilt(const nlc_network *network, int64_t side, int64_t particle);
 
 /*

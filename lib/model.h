@@ -21,8 +21,11 @@ typedef struct nlc_block {
     double x[2 * NLC_BLOCK], y[2 * NLC_BLOCK], z[2 * NLC_BLOCK]; /* outward unit normals */
     double force[2 * NLC_BLOCK]; /* times U */
     double shape[2 * NLC_BLOCK];    /* what the model's nlc_shape says */
+    double tilt[2 * NLC_BLOCK];     /* NLC_SHAPE_MOMENTS: chi - 1, see contact.h */
+    bool tilted;                    /* some tilt is not 0 */
     double displacement[NLC_BLOCK]; /* added to, > 0 outward */
     double second[NLC_BLOCK];       /* NLC_SHAPE_MOMENTS: the second sum, likewise */
+    double third[NLC_BLOCK];        /* the third one, if tilted */
 } nlc_block;
 
 /* What a model has to know of a contact beside its direction and force. */
@@ -43,8 +46,11 @@ static inline bool nlc_is_linear(nlc_shape shape)
 /* Constants of a kernel, prepared once per material. */
 typedef struct nlc_kernel {
     double poisson, prefactor;
-    double c[3]; /* of Case I */
+    double compliance; /* (1-nu^2)/E, in units of the largest of all materials */
+    double c[3];       /* of Case I */
     nlc_sphere_constants sphere;
+    nlc_sphere_series tilted;       /* change of D with chi */
+    nlc_sphere_quadratic self;      /* of the sphere's self terms */
 } nlc_kernel;
 
 /* What a contact's own force does to it, in units of U: displacement inward / P, its derivative, and twice the energy / P^2. */
@@ -59,8 +65,8 @@ typedef struct nlc_model {
     const char *validity;
     bool potential; /* the forces are the derivative of an energy, the tangent is symmetric */
     nlc_shape shape;
-    /* NULL in a model whose own force does nothing beyond Hertz; (a/R)^2, see contact.h for chi */
-    nlc_self (*self)(const nlc_kernel *kernel, double circle2, double chi);
+    /* NULL in a model whose own force does nothing beyond Hertz; (a/R)^2, tilt chi - 1, see contact.h */
+    nlc_self (*self)(const nlc_kernel *kernel, double circle2, double tilt);
     /* NULL in a model without coupling: */
     void (*prepare)(nlc_kernel *kernel, double poisson, double prefactor);
     /* Displacements in a block by its own forces, or in two blocks by each other's.  False: two directions are the same. */
@@ -100,7 +106,7 @@ bool nlc_half_space_between(nlc_block *a, nlc_block *b, const nlc_kernel *kernel
 
 /* The elastic sphere: sphere_model.c, sphere_block.c */
 void nlc_sphere_model_prepare(nlc_kernel *kernel, double poisson, double prefactor);
-nlc_self nlc_sphere_model_self(const nlc_kernel *kernel, double circle2, double chi);
+nlc_self nlc_sphere_model_self(const nlc_kernel *kernel, double circle2, double tilt);
 bool nlc_sphere_within(nlc_block *a, const nlc_kernel *kernel);
 bool nlc_sphere_between(nlc_block *a, nlc_block *b, const nlc_kernel *kernel);
 void nlc_sphere_coefficients(double *coefficient, const nlc_block *a, int c, const nlc_kernel *kernel);

@@ -21,7 +21,8 @@ static void put(nlc_block *b, const double *normal, int64_t e, double force)
     b->y[d] = out * v[1];
     b->z[d] = out * v[2];
     b->force[d] = force;
-    b->shape[d] = b->displacement[d] = b->second[d] = 0;
+    b->shape[d] = b->tilt[d] = b->displacement[d] = b->second[d] = b->third[d] = 0;
+    b->tilted = false;
 }
 
 /* What a change of the force on side e does to the other contacts of its particle. */

@@ -56,10 +56,29 @@ static double hertz_stiffness_of(const nlc_network *n, int64_t c)
                                b.young, b.poisson, j < n->particle_count ? n->radius[j] : INFINITY);
 }
 
+/* (1-nu^2)/E, relative to the largest; 0 where rigid or not in use. */
+static void set_compliances(nlc_network *n)
+{
+    int softest = INT32_MAX; /* exponent of its modulus */
+    for (int64_t m = 0; m < n->material_count; m++) {
+        const nlc_material row = n->materials[m];
+        if (!nlc_is_material(row.young, row.poisson) || !nlc_is_finite(row.young)) continue;
+        const int e = nlc_split(row.young).e;
+        softest = e < softest ? e : softest;
+    }
+    for (int64_t m = 0; m < n->material_count; m++) {
+        const nlc_material row = n->materials[m];
+        const bool yields = nlc_is_material(row.young, row.poisson) && nlc_is_finite(row.young);
+        const nlc_scaled young = nlc_split(yields ? row.young : 1);
+        n->kernel[m].compliance = yields ? nlc_join((1 - row.poisson * row.poisson) / young.m, softest - young.e) : 0;
+    }
+}
+
 void nlc_apply_settings(nlc_network *n, const nlc_settings *settings, const double *stiffness)
 {
     n->settings = *settings;
     n->coupling_exponent = n->scale_exponent + nlc_exponent_above(settings->prefactor) + 3;
+    set_compliances(n);
     for (int64_t m = 0; m < n->material_count; m++)
         if (settings->model->prepare && nlc_is_material(n->materials[m].young, n->materials[m].poisson))
             settings->model->prepare(&n->kernel[m], n->materials[m].poisson, settings->prefactor);

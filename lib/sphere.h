@@ -29,6 +29,11 @@ typedef struct nlc_sphere_constants {
     double self[3], self_log[2], energy[3], energy_log[2];
 } nlc_sphere_constants;
 
+/* The ten coefficients of the self terms are quadratic in chi: c[0] + c[1] (chi-1) + c[2] (chi-1)^2 of each. */
+typedef struct nlc_sphere_quadratic {
+    double self[3][3], self_log[2][3], energy[3][3], energy_log[2][3];
+} nlc_sphere_quadratic;
+
 /* 0 <= poisson <= 0.5, 0 <= chi <= 1e60; about a microsecond */
 void nlc_sphere_prepare(nlc_sphere_constants *constants, double poisson, double chi);
 
@@ -72,6 +77,14 @@ static inline nlc_sphere_pair nlc_sphere_at(double h2, const nlc_sphere_constant
     pair.d =
         r * (k->d.pole + r * r * k->d.pole3) + (log_h * nlc_sphere_log(k->d.log, t) + nlc_sphere_smooth(k->d.smooth, y, y2));
     return pair;
+}
+
+/* D(1) - D(0): what chi - 1 is multiplied by. */
+static inline double nlc_sphere_tilt_at(double h2, const nlc_sphere_series *restrict e)
+{
+    const double t = h2 + 0x1p-300, h = sqrt(t), r = 1 / h, y = h - 1;
+    return r * (e->pole + r * r * e->pole3) +
+           (nlc_half_log(t) * nlc_sphere_log(e->log, t) + nlc_sphere_smooth(e->smooth, y, y * y));
 }
 
 /* S and D for t[n]; false: some t is 0 or below 2^-200, for which S and D mean nothing. */

@@ -6,8 +6,7 @@
  *     v_c = sum [ P_d S(c,d) + P_d (a_d/R)^2 D(c,d) / 10 ]   and   w_c = sum P_d D(c,d),
  * P being the force and P (a_d/R)^2 / 10 the shape: the surface moves inward at c by U [ v_c + (a_c/R)^2 w_c / 6 ] on account of
  * them.  Their small changes are the same sums with another shape, the tangent's coefficients S + [(a_c/R)^2 + (a_d/R)^2] D / 6.
- * Here chi = 1: the source's a_d goes with
- * D at the source's chi, the receiver's a_c with D at the receiver's, so that other chi ask for a third sum.
+ * That is for chi = 1; for others see add_tilted.
  *
  * S and D are the same for (c, d) and (d, c), so each pair is looked at once, and as they are all that takes time, they are
  * computed for many pairs in one loop, which a compiler turns into vectors.  They do not depend on the forces.
@@ -69,6 +68,30 @@ static void copy_ring(double *x, int n)
     for (int c = 0; c < n; c++) x[n + c] = x[c];
 }
 
+static double squared(const nlc_block *a, int c, const nlc_block *b, int d)
+{
+    const double x = a->x[c] - b->x[d], y = a->y[c] - b->y[d], z = a->z[c] - b->z[d];
+    return x * x + y * y + z * z;
+}
+
+/*
+ * What is added where tractions are tilted: D is D(1) + (chi - 1) E, E = D(1) - D(0), with the source's chi in v and the receiver's
+ * in w, which is therefore left in two parts, sum P_d D(1) in second and sum P_d E in third.
+ */
+static void add_tilted(nlc_block *a, int c, nlc_block *b, int count, const nlc_kernel *kernel)
+{
+    double e[NLC_BLOCK], v = 0, w = 0;
+    for (int d = 0; d < count; d++) e[d] = nlc_sphere_tilt_at(squared(a, c, b, d), &kernel->tilted);
+    for (int d = 0; d < count; d++) {
+        b->displacement[d] -= e[d] * a->shape[c] * a->tilt[c];
+        b->third[d] += e[d] * a->force[c];
+        v += e[d] * b->shape[d] * b->tilt[d];
+        w += e[d] * b->force[d];
+    }
+    a->displacement[c] -= v;
+    a->third[c] += w;
+}
+
 bool nlc_sphere_within(nlc_block *a, const nlc_kernel *kernel)
 {
     const nlc_sphere_constants *constants = &kernel->sphere;
@@ -96,6 +119,7 @@ bool nlc_sphere_within(nlc_block *a, const nlc_kernel *kernel)
         a->displacement[c] -= mine.v[c] + (theirs.v[c] + theirs.v[n + c]);
         a->second[c] += mine.w[c] + (theirs.w[c] + theirs.w[n + c]);
     }
+    for (int c = 1; c < n && a->tilted; c++) add_tilted(a, c, a, c, kernel);
     return distinct;
 }
 
@@ -123,7 +147,10 @@ static bool row(nlc_block *restrict a, int c, nlc_block *restrict b, const nlc_s
 bool nlc_sphere_between(nlc_block *a, nlc_block *b, const nlc_kernel *kernel)
 {
     bool distinct = true;
-    for (int c = 0; c < a->count; c++) distinct &= row(a, c, b, &kernel->sphere);
+    for (int c = 0; c < a->count; c++) {
+        distinct &= row(a, c, b, &kernel->sphere);
+        if (a->tilted || b->tilted) add_tilted(a, c, b, b->count, kernel);
+    }
     return distinct;
 }
 
@@ -141,6 +168,8 @@ void nlc_sphere_coefficients(double *coefficient, const nlc_block *a, int c, con
     distances(t, a, c);
     nlc_sphere_evaluate(s, d, t, c, &kernel->sphere);
     for (int k = 0; k < c; k++) coefficient[k] = -(s[k] + (a->shape[c] + a->shape[k]) * d[k]);
+    for (int k = 0; k < c && a->tilted; k++)
+        coefficient[k] -= (a->shape[c] * a->tilt[c] + a->shape[k] * a->tilt[k]) * nlc_sphere_tilt_at(t[k], &kernel->tilted);
 }
 
 double nlc_sphere_squares(nlc_block *a, const nlc_kernel *kernel)

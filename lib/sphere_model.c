@@ -1,32 +1,53 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
-/* sphere_model.c - the exact sphere as rows of the table of models: to second order, and point forces alone. */
+/* sphere_model.c - the exact sphere as rows of the table of models: what is prepared for a material, and self terms. */
 #include "model.h"
+
+/* The quadratic through the values at chi - 1 = -1, 0 and 1. */
+static void quadratic(double c[3], double below, double at, double above)
+{
+    c[0] = at;
+    c[1] = 0.5 * (above - below);
+    c[2] = 0.5 * (above + below) - at;
+}
 
 void nlc_sphere_model_prepare(nlc_kernel *kernel, double poisson, double prefactor)
 {
+    nlc_sphere_constants k[3];
+    nlc_sphere_quadratic *q = &kernel->self;
     (void)prefactor;
     kernel->poisson = poisson;
-    nlc_sphere_prepare(&kernel->sphere, poisson, 1);
+    for (int chi = 0; chi < 3; chi++) nlc_sphere_prepare(&k[chi], poisson, chi);
+    kernel->sphere = k[1];
+    kernel->tilted.pole = k[1].d.pole - k[0].d.pole;
+    kernel->tilted.pole3 = k[1].d.pole3 - k[0].d.pole3;
+    for (int i = 0; i < NLC_SPHERE_LOG; i++) kernel->tilted.log[i] = k[1].d.log[i] - k[0].d.log[i];
+    for (int i = 0; i < NLC_SPHERE_SMOOTH; i++) kernel->tilted.smooth[i] = k[1].d.smooth[i] - k[0].d.smooth[i];
+    for (int i = 0; i < 3; i++) {
+        quadratic(q->self[i], k[0].self[i], k[1].self[i], k[2].self[i]);
+        quadratic(q->energy[i], k[0].energy[i], k[1].energy[i], k[2].energy[i]);
+    }
+    for (int i = 0; i < 2; i++) {
+        quadratic(q->self_log[i], k[0].self_log[i], k[1].self_log[i], k[2].self_log[i]);
+        quadratic(q->energy_log[i], k[0].energy_log[i], k[1].energy_log[i], k[2].energy_log[i]);
+    }
 }
 
-/* ln t, t2 = t^2; of t = 0 a number that is large enough */
-static double log_of(double t2)
+static double at(const double c[3], double tilt)
 {
-    return nlc_half_log(t2 > 1e-290 ? t2 : 1e-290);
+    return c[0] + tilt * (c[1] + tilt * c[2]);
 }
 
-/* The constants are those of chi = 1: what of them depends on chi is the one without t, and al (sphere_prepare.c). */
-nlc_self nlc_sphere_model_self(const nlc_kernel *kernel, double t2, double chi)
+/* With L = ln t: c0 + l0 L + c1 t + (c2 + l1 L) t^2; its derivative times t/3 is added for the slope. */
+nlc_self nlc_sphere_model_self(const nlc_kernel *kernel, double t2, double tilt)
 {
-    const nlc_sphere_constants *k = &kernel->sphere;
-    const double nu = kernel->poisson, more = chi - 1, t = sqrt(t2), L = log_of(t2), pi = 3.14159265358979323846;
-    const double z = -2 * (1 - 2 * nu) * more;
-    const double al = pi * more * ((1 - nu) * (12 / 35. * (chi + 1) - 12 / 7.) + 9 / 35. * (2 + nu * (6 - 8 * nu)));
-    const double *c = k->self, *l = k->self_log, *e = k->energy, *m = k->energy_log;
-    const double c0 = c[0] + z, c1 = c[1] + 7 / 6. * al;
+    const nlc_sphere_quadratic *q = &kernel->self;
+    const double t = sqrt(t2), L = nlc_half_log(t2 > 1e-290 ? t2 : 1e-290);
+    const double l0 = at(q->self_log[0], tilt), l1 = at(q->self_log[1], tilt);
+    const double c0 = at(q->self[0], tilt), c1 = at(q->self[1], tilt), c2 = at(q->self[2], tilt) + l1 * L;
     return (nlc_self){
-        c0 + l[0] * L + t * (c1 + t * (c[2] + l[1] * L)),
-        c0 + l[0] * (L + 1 / 3.) + t * (4 / 3. * c1 + t * (5 / 3. * (c[2] + l[1] * L) + l[1] / 3)),
-        e[0] + z + m[0] * L + t * (e[1] + al + t * (e[2] + m[1] * L)),
+        c0 + l0 * L + t * (c1 + t * c2),
+        c0 + l0 * (L + 1 / 3.) + t * (4 / 3. * c1 + t * (5 / 3. * c2 + l1 / 3)),
+        at(q->energy[0], tilt) + at(q->energy_log[0], tilt) * L +
+            t * (at(q->energy[1], tilt) + t * (at(q->energy[2], tilt) + at(q->energy_log[1], tilt) * L)),
     };
 }

@@ -21,7 +21,7 @@ static double gather(nlc_block *b, const nlc_network *n, nlc_response response, 
         b->y[d] = out * normal[3 * c + 1];
         b->z[d] = out * normal[3 * c + 2];
         b->force[d] = U * force[c];
-        b->displacement[d] = b->second[d] = 0;
+        b->displacement[d] = b->second[d] = b->third[d] = 0;
         double p = fabs(force[c]);
         largest = p > largest ? p : largest;
     }

@@ -424,20 +424,24 @@ static void make_block(rng *g, nlc_block *b, int n)
         b->z[c] = v[2];
         b->force[c] = rng_sign(g) * rng_uniform(g, 0.1, 1);
         b->shape[c] = b->force[c] * rng_uniform(g, 0, 0.01);
+        b->tilt[c] = n % 3 == 0 ? 0 : rng_uniform(g, -0.5, 1);
+        b->tilted = n % 3 != 0;
+        b->third[c] = rng_uniform(g, -1, 1);
         b->displacement[c] = rng_uniform(g, -1, 1); /* both are added to */
         b->second[c] = rng_uniform(g, -1, 1);
     }
 }
 
-/* What the force at d of b does to c of a, added to v and w, and its share of the tolerances. */
-static void add_pair(const nlc_block *a, int c, const nlc_block *b, int d, double nu, long double sum[4])
+/* What the force at d of b does to c of a, added to v and w, its share of the tolerances, and the part of w that goes with the tilt. */
+static void add_pair(const nlc_block *a, int c, const nlc_block *b, int d, double nu, long double sum[5])
 {
     const long double x = (long double)a->x[c] - b->x[d], y = (long double)a->y[c] - b->y[d],
                       z = (long double)a->z[c] - b->z[d];
     const long double s = sqrtl(x * x + y * y + z * z) / 2;
     const double theta = fmin((double)(2 * asinl(fminl(s, 1))), PI), S = nlc_sphere_green(theta, nu);
-    const double D = nlc_sphere_finite_size(theta, nu, 1);
-    sum[0] -= b->force[d] * (long double)S + (long double)b->shape[d] * D;
+    const double D = nlc_sphere_finite_size(theta, nu, 1), tilted = nlc_sphere_finite_size(theta, nu, 1 + b->tilt[d]);
+    sum[0] -= b->force[d] * (long double)S + (long double)b->shape[d] * tilted;
+    sum[4] += (long double)b->force[d] * (D - nlc_sphere_finite_size(theta, nu, 0));
     sum[1] += (long double)b->force[d] * D;
     sum[2] += fabs(b->force[d]) / s + fabs(b->shape[d]) / (s * s * s);
     sum[3] += fabs(b->force[d]) / (s * s * s);
@@ -448,8 +452,9 @@ static void add_pair(const nlc_block *a, int c, const nlc_block *b, int d, doubl
  * which is the difference of numbers of size 1 and exact where they are close: EPS, and of the directions' lengths, which
  * asin does not know, at most 4 EPS; D changes three times as fast.
  */
-static void compare_sums(const nlc_block *before, const nlc_block *after, int c, const long double sum[4])
+static void compare_sums(const nlc_block *before, const nlc_block *after, int c, const long double sum[5], bool tilted)
 {
+    if (tilted) nlc_assert_abs(after->third[c], (double)(before->third[c] + sum[4]), 120 * EPS * (double)sum[3] + EPS);
     nlc_assert_abs(after->displacement[c], (double)(before->displacement[c] + sum[0]), 60 * EPS * (double)sum[2] + EPS);
     nlc_assert_abs(after->second[c], (double)(before->second[c] + sum[1]), 60 * EPS * (double)sum[3] + EPS);
 }
@@ -468,10 +473,10 @@ START_TEST(sums_within)
         nlc_assert_quiet(distinct = nlc_sphere_within(&a, &kernel));
         ck_assert(distinct);
         for (int c = 0; c < n; c++) {
-            long double sum[4] = {0};
+            long double sum[5] = {0};
             for (int d = 0; d < n; d++)
                 if (d != c) add_pair(&before, c, &before, d, nu, sum);
-            compare_sums(&before, &a, c, sum);
+            compare_sums(&before, &a, c, sum, a.tilted);
         }
     }
 }
@@ -494,14 +499,14 @@ START_TEST(sums_between)
         nlc_assert_quiet(distinct = nlc_sphere_between(&a, &b, &kernel));
         ck_assert(distinct);
         for (int c = 0; c < n; c++) {
-            long double sum[4] = {0};
+            long double sum[5] = {0};
             for (int d = 0; d < m; d++) add_pair(&a0, c, &b0, d, nu, sum);
-            compare_sums(&a0, &a, c, sum);
+            compare_sums(&a0, &a, c, sum, a.tilted || b.tilted);
         }
         for (int d = 0; d < m; d++) {
-            long double sum[4] = {0};
+            long double sum[5] = {0};
             for (int c = 0; c < n; c++) add_pair(&b0, d, &a0, c, nu, sum);
-            compare_sums(&b0, &b, d, sum);
+            compare_sums(&b0, &b, d, sum, a.tilted || b.tilted);
         }
     }
 }
@@ -519,13 +524,15 @@ START_TEST(coefficients)
         long double squares = 0, scale = 0;
         nlc_sphere_model_prepare(&kernel, nu, 1);
         make_block(&g, &a, n);
+        for (int c = 0; c < n; c++) a.shape[c] = fabs(a.shape[c]);
         for (int c = 0; c < n; c++) {
             nlc_assert_quiet(nlc_sphere_coefficients(f, &a, c, &kernel));
             for (int d = 0; d < c; d++) {
                 nlc_block one = a;
-                long double sum[4] = {0};
+                long double sum[5] = {0};
                 one.force[d] = 1;
                 one.shape[d] = a.shape[c] + a.shape[d];
+                one.tilt[d] = (a.shape[c] * a.tilt[c] + a.shape[d] * a.tilt[d]) / one.shape[d];
                 add_pair(&a, c, &one, d, nu, sum);
                 nlc_assert_abs(f[d], (double)sum[0], 60 * EPS * (double)sum[2]);
                 squares += sum[0] * sum[0] * a.force[c] * a.force[d];
