@@ -35,6 +35,7 @@ typedef struct bench {
     double *force, *nonlocal; /* [contacts] the solution */
     double *work, *start;     /* [contacts] */
     double *loose, *known;    /* [contacts] overlaps with a small part compressed, and displacements that solve them */
+    double *moved;            /* [contacts] overlaps that differ from the packing's in that part only, by 1e-3 */
     double *displacement;     /* [contacts][2] */
     double *resultant;        /* [particles][3] */
     double *wall_resultant;   /* [walls][3] */
@@ -116,6 +117,11 @@ static nlc_status run_loose_again(bench *b)
     return solve(b, b->coupled, b->loose, b->known);
 }
 
+static nlc_status run_moved(bench *b)
+{
+    return solve(b, b->coupled, b->moved, b->nonlocal);
+}
+
 static nlc_status run_assemble(bench *b)
 {
     return nlc_assemble(b->coupled, b->resultant, 0, b->wall_resultant, b->force, normals(b), NULL);
@@ -134,6 +140,7 @@ static const struct {
     {"nlc_solve", "nlc_solve from zeros to 1e-8", run_solve},
     {"nlc_solve_again", "nlc_solve from its result", run_solve_again},
     {"nlc_solve_fixed_point", "nlc_solve from zeros, fixed point", run_fixed_point},
+    {"nlc_solve_moved", "nlc_solve when 1 % has moved by 1e-3", run_moved},
     {"nlc_solve_loose", "nlc_solve from zeros, 1 % compressed", run_loose},
     {"nlc_solve_loose_again", "nlc_solve from its result, 1 % compressed", run_loose_again},
     {"nlc_assemble", "nlc_assemble", run_assemble},
@@ -153,12 +160,13 @@ static int allocate(bench *b)
     b->start = calloc(contacts, sizeof(double));
     b->loose = calloc(contacts, sizeof(double));
     b->known = calloc(contacts, sizeof(double));
+    b->moved = calloc(contacts, sizeof(double));
     b->displacement = calloc(contacts, 2 * sizeof(double));
     b->resultant = calloc((size_t)b->p.count, 3 * sizeof(double));
     b->wall_resultant = calloc((size_t)b->p.wall_count + 1, 3 * sizeof(double));
     bool bad = algorithm1_init(&b->reference, &b->p, &b->n) != 0;
     for (int k = 0; k < NETWORKS; k++) bad = bad || !b->memory[k];
-    bad = bad || !b->loose || !b->known || !b->force || !b->nonlocal || !b->work || !b->start || !b->displacement ||
+    bad = bad || !b->loose || !b->known || !b->moved || !b->force || !b->nonlocal || !b->work || !b->start || !b->displacement ||
           !b->resultant || !b->wall_resultant;
     return bad ? fail("", "out of memory") : 0;
 }
@@ -173,6 +181,7 @@ static nlc_status loosen(bench *b)
             inside = inside && at * at * at < 0.01;
         }
         b->loose[c] = inside ? b->n.overlap[c] : -fabs(b->n.overlap[c]);
+        b->moved[c] = inside ? 1.001 * b->n.overlap[c] : b->n.overlap[c];
     }
     return nlc_solve(b->coupled, b->work, b->known, b->loose, normals(b), NULL);
 }
@@ -202,6 +211,7 @@ static void release(bench *b)
     for (int k = 0; k < NETWORKS; k++) free(b->memory[k]);
     free(b->loose);
     free(b->known);
+    free(b->moved);
     free(b->force);
     free(b->nonlocal);
     free(b->work);

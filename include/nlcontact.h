@@ -513,6 +513,7 @@ typedef struct nlc_info {
     int64_t blocks;         /* particles whose coefficients were computed for the upper bound: work beside the sweeps */
     int64_t left_out;       /* contacts left out of the iteration: without force, or not moved by any other force */
     int64_t clusters;       /* unconnected parts that were solved apart, each with its own number of sweeps: the most counts */
+    int64_t settled;        /* contacts in the region that was solved for first since forces changed only there; 0: everywhere */
 } nlc_info;
 
 /* Who touches whom, in the caller's memory.  Opaque. */
@@ -589,7 +590,8 @@ NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *opti
  * overlaps; there is no energy.
  *
  * Work is done only where there is something to solve for: not on contacts without force, on pairs that no other force moves, or
- * on rigid and flat sides (info.left_out); clusters of contacts that no yielding particle joins are solved apart (info.clusters),
+ * on rigid and flat sides (info.left_out); where forces change in a small part of the scene only, that is solved for first
+ * (info.settled) and the whole with little to do from there; clusters of contacts that no yielding particle joins are solved apart (info.clusters),
  * and what happens in one changes no bit in another; and a scene so loose that Hertz's forces can be proved to be within
  * the tolerance, with sweeps = 0, is not solved for at all: residual is the proved error then, and nonlocal 0.
  *

@@ -40,6 +40,12 @@ int64_t nlc_sort_clusters(nlc_network *n);
 /* Where in that list of count contacts the cluster that begins there ends. */
 int64_t nlc_cluster_end(nlc_network *n, int64_t begin, int64_t count);
 
+/*
+ * region.c: a better start where the forces change in a small part of the network only.  Displacements, in and out, are in
+ * n->current.
+ */
+void nlc_settle_region(nlc_network *n, const double *overlap, const double *normal, nlc_outcome *outcome);
+
 /* Contacts that are not in: their forces, of Hertz for pairs on their own, and no displacement. */
 void nlc_set_rest(nlc_network *n, const double *overlap);
 

@@ -48,6 +48,7 @@ struct nlc_network {
     /* Units of what is being computed, see nlc_set_units */
     int length_unit, stiffness_unit;
     double unit; /* coefficients are multiplied by it */
+    bool swept; /* side holds the displacements by the forces of current: the next iteration need not begin with a sweep */
     /* Work space; sides on walls stay 0 in side, walls in largest */
     double *side;     /* [2 contacts] displacement of each side */
     double *force;    /* [contacts] */

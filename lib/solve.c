@@ -169,7 +169,8 @@ static void accelerated(nlc_network *n, const double *overlap, const double *nor
         by_clusters(n, overlap, normal, nonlocal, out);
         return;
     }
-    n->settings.model->potential ? nlc_galerkin(n, overlap, normal, out) : nlc_mixed(n, overlap, normal, out); /* a copy of so many would cost more than it saves */
+    nlc_settle_region(n, overlap, normal, out);
+    n->settings.model->potential ? nlc_galerkin(n, overlap, normal, out) : nlc_mixed(n, overlap, normal, out);
     warn_if_close(n, overlap, normal, out);
     out->info.clusters = 1;
 }

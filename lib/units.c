@@ -48,6 +48,7 @@ void nlc_iteration_start(nlc_iteration *q, nlc_network *n, const double *overlap
         n->current[c] *= q->per_overlap;
         n->force[c] = nlc_scaled_force(q, c);
         n->spare[2][c] = nlc_scaled_overlap(q, c); /* nlc_weaken comes back to it */
+        if (n->swept) n->current[c] = (n->side[2 * c] + n->side[2 * c + 1]) * q->per_overlap;
         n->floor[c] = SLOPE_FLOOR * nlc_scaled_stiffness(q, c) * sqrt(top > 1e-12 ? top : 1e-12);
     }
 }

@@ -327,6 +327,45 @@ START_TEST(loose_scenes_agree_with_long_double)
 }
 END_TEST
 
+/*
+ * One contact of a dense packing moves: what is around it is solved for first, and two sweeps of the whole do.  The forces are
+ * within the tolerance of exact ones, and so they are where nothing moves.
+ */
+START_TEST(only_what_moves)
+{
+    scene s;
+    scene_init(&s);
+    s.options.tolerance = 1e-3;
+    scene_packing(&s, "a_mono1000_periodic.csv", 0.1);
+    long double *exact = malloc((size_t)s.contacts * sizeof *exact);
+    nlc_info info = {.struct_size = sizeof info};
+    ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+    ck_assert_int_eq(info.settled, 0);
+    s.options.tolerance = 1e-9;
+    ck_assert_int_eq(nlc_set_options(s.network, &s.options, 0), NLC_OK);
+    ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+    s.options.tolerance = 1e-3;
+    ck_assert_int_eq(nlc_set_options(s.network, &s.options, 0), NLC_OK);
+    for (int step = 0; step < 5; step++) {
+        int64_t c = 900 * step;
+        while (s.overlap[c] < 1.7e-4) c++; /* a strong one */
+        s.overlap[c] *= 1.006;
+        ck_assert(scene_oracle(&s, 1, exact) < 1e-15L);
+        ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+        ck_assert(scene_error(&s, s.force, exact) <= 1e-3);
+        ck_assert_msg(info.settled > 10 && info.settled < s.contacts / 2, "step %d: %jd settled, %jd sweeps", step, (intmax_t)info.settled, (intmax_t)info.sweeps);
+        ck_assert_int_le(info.sweeps, 2);
+        double *w = malloc(2 * (size_t)s.contacts * sizeof *w);
+        for (int64_t k = 0; k < s.contacts; k++) s.force[k] = (double)exact[k]; /* the next step starts from exact displacements */
+        ck_assert_int_eq(nlc_sweep(s.network, w, s.force, 0, s.normal, 0), NLC_OK);
+        for (int64_t k = 0; k < s.contacts; k++) s.nonlocal[k] = w[2 * k] + w[2 * k + 1];
+        free(w);
+    }
+    free(exact);
+    scene_free(&s);
+}
+END_TEST
+
 /* One compressed pair among a thousand grains that nearly touch: nothing else is looked at. */
 START_TEST(what_cannot_move_is_left_out)
 {
@@ -473,6 +512,7 @@ static Suite *forces(void)
     tcase_add_loop_test(t, clusters_agree_with_long_double, 0, 12);
     tcase_add_loop_test(t, loose_scenes_agree_with_long_double, 0, 2);
     tcase_add_test(t, what_cannot_move_is_left_out);
+    tcase_add_test(t, only_what_moves);
     tcase_add_test(t, half_space_is_case_one_times_prefactor);
     suite_add_tcase(suite, t);
     return suite;

@@ -55,9 +55,9 @@ AT(nlc_options, points, 44);
 AT(nlc_options, stiffness, 48);
 
 #define I(field) OF(nlc_info, field)
-SIZE(nlc_info, 120, I(struct_size) + I(culprit) + I(sweeps) + I(residual) + I(worst_contact) + I(active) +
+SIZE(nlc_info, 128, I(struct_size) + I(culprit) + I(sweeps) + I(residual) + I(worst_contact) + I(active) +
      I(lambda_lower) + I(lambda_upper) + I(critical_particle) + I(coupling) + I(weakest_particle) + I(weakened) + I(blocks) +
-     I(left_out) + I(clusters));
+     I(left_out) + I(clusters) + I(settled));
 AT(nlc_info, struct_size, 0);
 AT(nlc_info, culprit, 8);
 AT(nlc_info, sweeps, 16);
@@ -73,6 +73,7 @@ AT(nlc_info, weakened, 88);
 AT(nlc_info, blocks, 96);
 AT(nlc_info, left_out, 104);
 AT(nlc_info, clusters, 112);
+AT(nlc_info, settled, 120);
 #endif
 
 VALUE(sizeof(nlc_status), 4);
