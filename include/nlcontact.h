@@ -455,7 +455,7 @@ typedef struct nlc_particles {
 enum {
     NLC_MODEL_GONZALEZ_CUITINO = 0, /* point force on a sphere cut from a half-space ([GC] 5, Case I) */
     NLC_MODEL_HERTZ = 1,            /* no coupling: the classical law */
-    NLC_MODEL_HALF_SPACE = 2,       /* MC-DEM: [MC] 1 times the prefactor, at deformed contact points unless options.points says otherwise */
+    NLC_MODEL_HALF_SPACE = 2,       /* MC-DEM: [MC] 1 times the prefactor, at the contact points of options.points */
     NLC_MODEL_LOVE = 3,             /* Hertz pressure on a half-space ([GC] 26-29, Case II) */
     NLC_MODEL_SPHERE = 4,           /* the exact elastic sphere to second order in contact radius / radius */
     NLC_MODEL_POINT_FORCE = 5       /* point force on the exact elastic sphere, without what it does to its own contact */
@@ -482,7 +482,7 @@ enum {
 /* Options of a network.  0 is the default of every field; a NULL pointer to options means all defaults. */
 typedef struct nlc_options {
     size_t struct_size;      /* sizeof(nlc_options) */
-    int32_t model;           /* NLC_MODEL_... */
+    int32_t model;           /* NLC_MODEL_..., see nlc_model_info */
     int32_t method;          /* NLC_METHOD_... */
     double tolerance;        /* of the forces, see nlc_solve; 0: 1e-8; more than 1 counts as 1 */
     int64_t max_sweeps;      /* 0: 1000 */
@@ -515,6 +515,46 @@ typedef struct nlc_info {
     int64_t clusters;       /* unconnected parts that were solved apart, each with its own number of sweeps: the most counts */
     int64_t settled;        /* contacts in the region that was solved for first since forces changed only there; 0: everywhere */
 } nlc_info;
+
+/* What there is to know of a model.  Set struct_size before the call. */
+typedef struct nlc_model_record {
+    size_t struct_size;    /* in: sizeof(nlc_model_record) */
+    const char *name;      /* short, as on a command line; the strings are constant, never NULL and end with the program */
+    const char *reference; /* authors, year, equations: please cite it */
+    const char *doi;       /* of it; empty: none */
+    const char *validity;  /* how far off the forces are, and where */
+    int32_t symmetric;     /* 1: a change of one force moves another contact as that one's would move the first; 0: not so */
+    int32_t potential;     /* 1: the forces have an energy: nlc_energy, nlc_tangent and its companions; 0: NLC_ERROR_NO_POTENTIAL */
+    int32_t self_term;     /* 1: a contact's own force moves it beyond Hertz' law */
+    int32_t circles;       /* 1: the size of the contact circles counts */
+    double cost;           /* time of a sweep in units of NLC_MODEL_GONZALEZ_CUITINO's, about: measured */
+} nlc_model_record;
+
+/*
+ * nlc_model_count - how many models there are: their numbers are 0 ... count-1.
+ *
+ * Returns the number, that of the library that is running; a newer one may have more.
+ */
+NLC_API int32_t nlc_model_count(void);
+
+/*
+ * nlc_model_info - a row of the table of models.
+ *
+ * model     NLC_MODEL_..., or any number below nlc_model_count
+ * record    out, up to the smaller of record->struct_size and this version's size; bytes beyond are zeroed
+ * info      or NULL
+ * NLC_MODEL_HALF_SPACE is described at deformed contact points; at undeformed ones it is symmetric and has an energy.
+ * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _MODEL.
+ */
+NLC_API nlc_status nlc_model_info(int32_t model, nlc_model_record *record, nlc_info *info);
+
+/*
+ * nlc_model_find - the number of a model from its name.
+ *
+ * name    as in nlc_model_record, letter by letter; or NULL
+ * Returns the number, NLC_MODEL_...; -1: there is no such model.
+ */
+NLC_API int32_t nlc_model_find(const char *name);
 
 /* Who touches whom, in the caller's memory.  Opaque. */
 typedef struct nlc_network nlc_network;
@@ -571,8 +611,9 @@ NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *opti
  *
  * network    from nlc_network_init
  * force      [contacts] out: P >= 0 [N]
- * nonlocal   [contacts] in-out: g [m], with NLC_MODEL_SPHERE what the own force adds included.  In: where to start, the values of the last step or zeros; any finite values will
- *            do.  Out: g of the forces returned, P_c = k_c (gamma_c + g_c)_+^(3/2).
+ * nonlocal   [contacts] in-out: g [m], with NLC_MODEL_SPHERE what the own force adds included.  In: where to start, the values of
+ *            the last step or zeros; any finite values will do.  Out: g of the forces returned,
+ *            P_c = k_c (gamma_c + g_c)_+^(3/2).
  * overlap    [contacts] gamma [m], negative for candidates
  * normal     [contacts][3] unit vectors from i to j (into the wall), | |n|^2 - 1 | <= 1e-6, used as given
  * info       or NULL: all fields

@@ -63,7 +63,9 @@ typedef struct nlc_model {
     const char *reference; /* authors, year, equations */
     const char *doi;
     const char *validity;
-    bool potential; /* the forces are the derivative of an energy, the tangent is symmetric */
+    double cost;    /* of a sweep, in units of Case I's: make accuracy */
+    bool symmetric; /* the tangent's coefficients of a pair are the same both ways */
+    bool potential; /* the forces are the derivative of an energy */
     nlc_shape shape;
     /* NULL in a model whose own force does nothing beyond Hertz; (a/R)^2, tilt chi - 1, see contact.h */
     nlc_self (*self)(const nlc_kernel *kernel, double circle2, double tilt);

@@ -45,9 +45,23 @@ nlc_status nlc_read_options(nlc_options *to, const nlc_options *from)
     return NLC_OK;
 }
 
+int nlc_struct_size_is_valid(size_t size)
+{
+    return size >= sizeof size && size <= NLC_STRUCT_MAX;
+}
+
+void nlc_write_struct(void *to, const void *record, size_t own)
+{
+    size_t size;
+    memcpy(&size, to, sizeof size);
+    memcpy(to, record, size < own ? size : own);
+    memcpy(to, &size, sizeof size);
+    if (size > own) memset((unsigned char *)to + own, 0, size - own);
+}
+
 int nlc_info_is_valid(const nlc_info *info)
 {
-    return !info || (info->struct_size >= sizeof info->struct_size && info->struct_size <= NLC_STRUCT_MAX);
+    return !info || nlc_struct_size_is_valid(info->struct_size);
 }
 
 nlc_info nlc_new_info(void)
@@ -64,11 +78,7 @@ nlc_info nlc_new_info(void)
 
 nlc_status nlc_report(nlc_info *info, const nlc_info *record, nlc_status status)
 {
-    if (!info) return status;
-    size_t size = info->struct_size, own = sizeof *record;
-    memcpy(info, record, size < own ? size : own);
-    info->struct_size = size;
-    if (size > own) memset((unsigned char *)info + own, 0, size - own);
+    if (info) nlc_write_struct(info, record, sizeof *record);
     return status;
 }
 

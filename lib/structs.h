@@ -16,6 +16,15 @@
 nlc_status nlc_read_particles(nlc_particles *to, const nlc_particles *from);
 nlc_status nlc_read_options(nlc_options *to, const nlc_options *from); /* from NULL: all zero */
 
+/* Whether a struct of this size can be written to. */
+int nlc_struct_size_is_valid(size_t size);
+
+/*
+ * Writes a record of our own size to a caller's struct that begins with such a size: up to the smaller of both, bytes beyond ours
+ * are zeroed, the size stays.
+ */
+void nlc_write_struct(void *to, const void *record, size_t own);
+
 /* Whether info is NULL or has a struct_size that can be written to. */
 int nlc_info_is_valid(const nlc_info *info);
 

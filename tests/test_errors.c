@@ -209,7 +209,7 @@ END_TEST
 
 START_TEST(options)
 {
-    WITH(f.options.model, 6, init(), NLC_ERROR_MODEL, 6);
+    WITH(f.options.model, nlc_model_count(), init(), NLC_ERROR_MODEL, nlc_model_count());
     WITH(f.options.model, -1, init(), NLC_ERROR_MODEL, -1);
     WITH(f.options.method, -1, init(), NLC_ERROR_METHOD, -1);
     WITH(f.options.method, 99, init(), NLC_ERROR_METHOD, 99);
@@ -410,6 +410,45 @@ START_TEST(energy_and_tangent)
 }
 END_TEST
 
+START_TEST(models)
+{
+    unsigned char room[sizeof(nlc_model_record) + 64], kept[sizeof room]; /* exactly struct_size bytes are written */
+    nlc_model_record full = {.struct_size = sizeof full};
+    ck_assert_int_eq(nlc_model_info(NLC_MODEL_SPHERE, &full, 0), NLC_OK);
+    for (size_t size = sizeof(size_t); size <= sizeof room - 8; size++) {
+        memset(room, 0xa5, sizeof room);
+        memcpy(room, &size, sizeof size);
+        ck_assert_int_eq(nlc_model_info(NLC_MODEL_SPHERE, (nlc_model_record *)(void *)room, 0), NLC_OK);
+        const size_t common = size < sizeof full ? size : sizeof full, head = sizeof(size_t);
+        ck_assert(memcmp(room, &size, head) == 0 && memcmp(room + head, (char *)&full + head, common - head) == 0);
+        for (size_t b = common; b < size; b++) ck_assert_int_eq(room[b], 0);
+        for (size_t b = size; b < sizeof room; b++) ck_assert_int_eq(room[b], 0xa5);
+    }
+    nlc_model_record *record = (nlc_model_record *)(void *)room;
+    memset(room, 0xa5, sizeof room);
+    memcpy(kept, room, sizeof room);
+    keep();
+    demand(nlc_model_info(0, 0, &f.info), NLC_ERROR_NULL, 1);
+    demand(nlc_model_info(0, record, &f.info), NLC_ERROR_STRUCT_SIZE, 1); /* 0xa5... */
+    ck_assert(memcmp(room, kept, sizeof room) == 0);
+    for (size_t size = 0; size < sizeof size; size++) {
+        memcpy(room, &size, sizeof size);
+        demand(nlc_model_info(0, record, &f.info), NLC_ERROR_STRUCT_SIZE, 1);
+    }
+    record->struct_size = sizeof *record;
+    memcpy(kept, room, sizeof room);
+    demand(nlc_model_info(-1, record, &f.info), NLC_ERROR_MODEL, -1);
+    demand(nlc_model_info(nlc_model_count(), record, &f.info), NLC_ERROR_MODEL, nlc_model_count());
+    demand(nlc_model_info(INT32_MIN, record, &f.info), NLC_ERROR_MODEL, INT32_MIN);
+    demand(nlc_model_info(INT32_MAX, record, &f.info), NLC_ERROR_MODEL, INT32_MAX);
+    f.info.struct_size = 3;
+    ck_assert_int_eq(nlc_model_info(0, record, &f.info), NLC_ERROR_STRUCT_SIZE);
+    ck_assert(memcmp(room, kept, sizeof room) == 0);
+    const char *none[] = {0, "", "hert", "hertz ", "Hertz", "hertzian", "sphere\n"};
+    for (int k = 0; k < 7; k++) ck_assert_int_eq(nlc_model_find(none[k]), -1);
+}
+END_TEST
+
 START_TEST(prediction)
 {
     double previous[5] = {0};
@@ -474,6 +513,7 @@ int main(void)
     tcase_add_test(t, arrays_over_contacts);
     tcase_add_test(t, same_direction_and_range);
     tcase_add_test(t, energy_and_tangent);
+    tcase_add_test(t, models);
     tcase_add_test(t, prediction);
     tcase_add_test(t, empty_networks);
     tcase_add_test(t, every_error_was_met);

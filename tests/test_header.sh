@@ -74,6 +74,20 @@ AT(nlc_info, blocks, 96);
 AT(nlc_info, left_out, 104);
 AT(nlc_info, clusters, 112);
 AT(nlc_info, settled, 120);
+
+#define R(field) OF(nlc_model_record, field)
+SIZE(nlc_model_record, 64, R(struct_size) + R(name) + R(reference) + R(doi) + R(validity) + R(symmetric) + R(potential) +
+     R(self_term) + R(circles) + R(cost));
+AT(nlc_model_record, struct_size, 0);
+AT(nlc_model_record, name, 8);
+AT(nlc_model_record, reference, 16);
+AT(nlc_model_record, doi, 24);
+AT(nlc_model_record, validity, 32);
+AT(nlc_model_record, symmetric, 40);
+AT(nlc_model_record, potential, 44);
+AT(nlc_model_record, self_term, 48);
+AT(nlc_model_record, circles, 52);
+AT(nlc_model_record, cost, 56);
 #endif
 
 VALUE(sizeof(nlc_status), 4);
@@ -85,6 +99,8 @@ VALUE(NLC_MODEL_SPHERE, 4);
 VALUE(NLC_MODEL_POINT_FORCE, 5);
 VALUE(NLC_METHOD_AUTOMATIC, 0);
 VALUE(NLC_METHOD_FIXED_POINT, 1);
+VALUE(NLC_POINTS_DEFORMED, 0);
+VALUE(NLC_POINTS_UNDEFORMED, 1);
 VALUE(NLC_SIMD_BEST, 0);
 VALUE(NLC_SIMD_GENERIC, 1);
 VALUE(NLC_OK, 0);
@@ -141,4 +157,4 @@ names=$(sed -n 's/^NLC_API .*[ *]\(nlc_[a-z0-9_]*\)(.*/\1/p' "$S/include/nlconta
 $CXX ${CFLAGS-} -std=c++11 -I"$S/include" -o "$tmp/all" "$tmp/all.cc" "$B/libnlcontact.a" ${LDFLAGS-} -lm ||
     fail "a C++ program with every function in it does not link"
 ${EMULATOR-} "$tmp/all" || fail "a C++ program computes something else"
-echo "test_header: $compiled compilations, 4 structs, a C++ program: ok"
+echo "test_header: $compiled compilations, 5 structs, a C++ program: ok"
