@@ -3,6 +3,7 @@
 #include "analysis.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,12 +12,6 @@
 
 enum { REPETITIONS_MIN = 3, REPETITIONS_MAX = 25 };
 #define REPETITIONS_TIME 0.25 /* seconds after which the minimum is enough */
-
-const analysis_model analysis_models[ANALYSIS_MODELS] = {
-    {NLC_MODEL_HERTZ, "hertz", "Hertz"},
-    {NLC_MODEL_GONZALEZ_CUITINO, "gonzalez-cuitino", "Gonzalez-Cuitino"},
-    {NLC_MODEL_HALF_SPACE, "half-space", "half-space"},
-};
 
 /* Everything that one run needs and that is gone after it. */
 typedef struct run {
@@ -30,6 +25,7 @@ typedef struct run {
     nlc_network *network;
     double *resultant;      /* [particles][3] */
     double *wall_resultant; /* [walls][3] */
+    double *displacement;   /* [contacts][2] */
     char *error;
     size_t error_size;
 } run;
@@ -83,14 +79,14 @@ static int fail_status(run *r, const char *function, nlc_status status, const nl
 {
     char culprit[160] = "";
     if (strcmp(culprit_kind(status), "-1") != 0) describe_culprit(r, status, info->culprit, culprit, sizeof culprit);
-    snprintf(r->error, r->error_size, "%s, %s: %s%s%s%s", r->a->model->title, function, nlc_strerror(status),
+    snprintf(r->error, r->error_size, "%s, %s: %s%s%s%s", r->a->model, function, nlc_strerror(status),
              *culprit ? " (" : "", culprit, *culprit ? ")" : "");
     return -1;
 }
 
 static int fail_memory(run *r)
 {
-    snprintf(r->error, r->error_size, "%s: out of memory", r->a->model->title);
+    snprintf(r->error, r->error_size, "%s: out of memory", r->a->model);
     return -1;
 }
 
@@ -98,7 +94,7 @@ void analysis_describe_warning(const analysis *a, const packing *p, const neighb
 {
     char where[160] = "no contact";
     if (a->info.worst_contact >= 0) describe_contact(p, n, a->info.worst_contact, where, sizeof where);
-    snprintf(text, size, "%s: %s (%lld sweeps, residual %.1e at %s)", a->model->title, nlc_strerror(a->status),
+    snprintf(text, size, "%s: %s (%lld sweeps, residual %.1e at %s)", a->model, nlc_strerror(a->status),
              (long long)a->info.sweeps, a->info.residual, where);
 }
 
@@ -113,14 +109,15 @@ static int allocate(run *r)
     a->wall_force = calloc(walls + 1, sizeof(double));
     r->resultant = calloc((size_t)r->p->count * 3, sizeof(double));
     r->wall_resultant = calloc(walls * 3 + 1, sizeof(double));
+    r->displacement = calloc(contacts + 1, 2 * sizeof(double));
     r->memory_size = nlc_network_size(&r->particles, r->n->count, &r->options);
     r->memory = malloc(r->memory_size + 1);
-    if (!a->force || !a->nonlocal || !a->wall_force || !r->resultant || !r->wall_resultant || !r->memory) return fail_memory(r);
-    return 0;
+    bool bad = !a->force || !a->nonlocal || !a->wall_force || !r->resultant || !r->wall_resultant;
+    return bad || !r->displacement || !r->memory ? fail_memory(r) : 0;
 }
 
-/* Builds and solves once. */
-static int solve(run *r, double *build_time, double *solve_time)
+/* Builds, solves and sweeps once. */
+static int solve(run *r, double *build_time, double *solve_time, double *sweep_time)
 {
     analysis *a = r->a;
     const neighbours *n = r->n;
@@ -134,22 +131,27 @@ static int solve(run *r, double *build_time, double *solve_time)
     a->info.struct_size = sizeof a->info;
     a->status = nlc_solve(r->network, a->force, a->nonlocal, n->overlap, (const double *)n->normal, &a->info);
     *build_time = built - start;
-    *solve_time = timing_seconds() - built;
-    return a->status < 0 ? fail_status(r, "nlc_solve", a->status, &a->info) : 0;
+    double solved = timing_seconds();
+    *solve_time = solved - built;
+    if (a->status < 0) return fail_status(r, "nlc_solve", a->status, &a->info);
+    status = nlc_sweep(r->network, r->displacement, a->force, n->overlap, (const double *)n->normal, &info);
+    *sweep_time = timing_seconds() - solved;
+    return status < 0 ? fail_status(r, "nlc_sweep", status, &info) : 0;
 }
 
 static int solve_repeatedly(run *r)
 {
-    double build[REPETITIONS_MAX], solution[REPETITIONS_MAX];
+    double build[REPETITIONS_MAX], solution[REPETITIONS_MAX], sweep[REPETITIONS_MAX];
     double start = timing_seconds();
     int k = 0;
     while (k < REPETITIONS_MIN || (k < REPETITIONS_MAX && timing_seconds() - start < REPETITIONS_TIME)) {
-        if (solve(r, &build[k], &solution[k])) return -1;
+        if (solve(r, &build[k], &solution[k], &sweep[k])) return -1;
         k++;
     }
     r->a->repetitions = k;
     r->a->build_time = timing_spread_of(build, k).median;
     r->a->solve_time = timing_spread_of(solution, k).median;
+    r->a->sweep_time = timing_spread_of(sweep, k).median;
     return 0;
 }
 
@@ -205,15 +207,21 @@ static int sum_resultants(run *r)
     return 0;
 }
 
-int analysis_run(analysis *a, const analysis_model *model, const nlc_options *options, const packing *p, const neighbours *n,
+int analysis_run(analysis *a, int32_t model, const nlc_options *options, const packing *p, const neighbours *n,
                  char *error, size_t error_size)
 {
     memset(a, 0, sizeof *a);
-    a->model = model;
+    nlc_model_record record = {.struct_size = sizeof record};
+    int status = nlc_model_info(model, &record, NULL);
+    if (status < 0) {
+        snprintf(error, error_size, "%s: %d", nlc_strerror(status), (int)model);
+        return -1;
+    }
+    a->model = record.name;
     run r = {.a = a, .p = p, .n = n, .options = *options, .error = error, .error_size = error_size};
-    r.options.model = model->number;
+    r.options.model = model;
     r.particles = packing_particles(p);
-    int status = allocate(&r);
+    status = allocate(&r);
     if (!status) status = solve_repeatedly(&r);
     if (!status) status = sum_resultants(&r);
     if (!status) {
@@ -222,6 +230,7 @@ int analysis_run(analysis *a, const analysis_model *model, const nlc_options *op
     }
     free(r.resultant);
     free(r.wall_resultant);
+    free(r.displacement);
     free(r.memory);
     return status;
 }

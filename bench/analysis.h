@@ -12,19 +12,8 @@
 #include "nlcontact.h"
 #include "packing_io.h"
 
-enum { ANALYSIS_MODELS = 3 };
-
-typedef struct analysis_model {
-    int32_t number;
-    const char *option; /* what it is called on a command line and in CSV */
-    const char *title;
-} analysis_model;
-
-/* Hertz comes first, the library's default second. */
-extern const analysis_model analysis_models[ANALYSIS_MODELS];
-
 typedef struct analysis {
-    const analysis_model *model;
+    const char *model;        /* its name */
     double *force, *nonlocal; /* [contacts] as from nlc_solve */
     double *wall_force;       /* [walls] normal force on each wall, > 0 when pushed away from the particles [N] */
     nlc_status status;        /* of nlc_solve: NLC_OK or a warning */
@@ -37,6 +26,7 @@ typedef struct analysis {
     double stress[3][3];      /* (1/V) sum of b (x) P n, compression > 0, b as in neighbours_branch [Pa] */
     double build_time;        /* median of nlc_network_init [s] */
     double solve_time;        /* median of nlc_solve from zeros [s] */
+    double sweep_time;        /* median of nlc_sweep [s] */
     int repetitions;
 } analysis;
 
@@ -48,7 +38,7 @@ typedef struct analysis {
  * error     [error_size] out, on failure
  * Returns 0; -1 if there is no memory or the library reports an error.
  */
-int analysis_run(analysis *a, const analysis_model *model, const nlc_options *options, const packing *p, const neighbours *n,
+int analysis_run(analysis *a, int32_t model, const nlc_options *options, const packing *p, const neighbours *n,
                  char *error, size_t error_size);
 
 void analysis_free(analysis *a);

@@ -16,11 +16,13 @@
 #include "timing.h"
 #include "vtk.h"
 
-enum { EXIT_USAGE = 2 };
+enum { EXIT_USAGE = 2, MODELS_MAX = 16 };
 
 typedef struct settings {
     const char *file, *svg, *vtk;
-    const analysis_model *model; /* NULL: all */
+    int32_t models[MODELS_MAX]; /* behind Hertz, with which all are compared */
+    int model_count;
+    bool models_given;
     double reach;
     nlc_options options;
     bool csv;
@@ -33,10 +35,11 @@ static const char usage[] = "usage: packing [options] FILE\n"
                             "\n"
                             "FILE is NAME.csv, NAME.header.txt or NAME.f64le; bench/README describes the format.\n"
                             "\n"
-                            "  --model NAME     hertz, gonzalez-cuitino or half-space: only this beside Hertz (default: all)\n"
+                            "  --model NAME     this beside Hertz, or all; may be repeated\n"
+                            "                   (default: gonzalez-cuitino and sphere)\n"
                             "  --tolerance T    error of a force over the largest force on either sphere (default: 1e-8)\n"
                             "  --max-sweeps N   give up after N multiplications by the coupling matrix (default: 1000)\n"
-                            "  --prefactor G    of the half-space displacements (default: 1, as Gonzalez-Cuitino)\n"
+                            "  --prefactor G    of the half-space displacements (default: 1)\n"
                             "  --reach X        a gap below X (R_i + R_j) / 2 makes a pair a candidate (default: 0.3)\n"
                             "  --csv            print comma-separated values in SI units\n"
                             "  --svg FILE       write a picture of the force chains, Hertz beside the first other model\n"
@@ -45,7 +48,17 @@ static const char usage[] = "usage: packing [options] FILE\n"
                             "  --help           print this\n"
                             "\n"
                             "Exit status: 0 success, also with a warning that forces miss the tolerance; 1 failure;\n"
-                            "2 wrong usage.\n";
+                            "2 wrong usage.\n"
+                            "\n"
+                            "Models:";
+
+static void print_usage(FILE *out)
+{
+    nlc_model_record m = {.struct_size = sizeof m};
+    fputs(usage, out);
+    for (int32_t k = 0; nlc_model_info(k, &m, NULL) == NLC_OK; k++) fprintf(out, " %s", m.name);
+    fputc('\n', out);
+}
 
 /* ---- command line */
 
@@ -62,11 +75,22 @@ static bool to_number(const char *text, double *x)
     return end != text && *end == '\0' && isfinite(*x);
 }
 
+static void add_model(settings *s, int32_t model)
+{
+    for (int k = 0; k < s->model_count; k++)
+        if (s->models[k] == model) return;
+    if (model != NLC_MODEL_HERTZ && s->model_count < MODELS_MAX) s->models[s->model_count++] = model;
+}
+
 static int set_model(settings *s, const char *value)
 {
-    for (int k = 0; k < ANALYSIS_MODELS; k++)
-        if (strcmp(value, analysis_models[k].option) == 0) s->model = &analysis_models[k];
-    return s->model ? 0 : complain("no such model", value);
+    const bool all = strcmp(value, "all") == 0;
+    const int32_t model = nlc_model_find(value);
+    s->models_given = true;
+    if (!all && model < 0) return complain("no such model", value);
+    if (!all) add_model(s, model);
+    for (int32_t k = 0; all && k < nlc_model_count(); k++) add_model(s, k);
+    return 0;
 }
 
 static int set_tolerance(settings *s, const char *value)
@@ -155,7 +179,7 @@ static int parse_arguments(settings *s, char **argv)
         } else if (strcmp(argv[k], "--csv") == 0) {
             s->csv = true;
         } else if (strcmp(argv[k], "--help") == 0) {
-            fputs(usage, stdout);
+            print_usage(stdout);
             return -1;
         } else if (strcmp(argv[k], "--version") == 0) {
             printf("%s\n", nlc_version());
@@ -165,8 +189,12 @@ static int parse_arguments(settings *s, char **argv)
         }
         if (status) return status;
     }
+    if (!s->models_given) {
+        add_model(s, NLC_MODEL_GONZALEZ_CUITINO);
+        add_model(s, NLC_MODEL_SPHERE);
+    }
     if (s->file) return 0;
-    fputs(usage, stderr);
+    print_usage(stderr);
     return EXIT_USAGE;
 }
 
@@ -176,7 +204,7 @@ typedef struct job {
     settings set;
     packing p;
     neighbours n;
-    analysis results[ANALYSIS_MODELS];
+    analysis results[1 + MODELS_MAX];
     int count;
 } job;
 
@@ -199,13 +227,11 @@ static int solve_models(job *j)
     char text[PACKING_ERROR_SIZE];
     timing_progress progress;
     timing_progress_begin(&progress, "models solved");
-    for (int k = 0; k < ANALYSIS_MODELS; k++) {
-        const analysis_model *m = &analysis_models[k];
-        /* everything is compared with Hertz, which comes first */
-        if (k > 0 && j->set.model && j->set.model != m) continue;
-        timing_progress_update(&progress, k, ANALYSIS_MODELS);
+    while (j->count <= j->set.model_count) {
+        const int32_t model = j->count > 0 ? j->set.models[j->count - 1] : NLC_MODEL_HERTZ;
+        timing_progress_update(&progress, j->count, 1 + j->set.model_count);
         analysis *a = &j->results[j->count++];
-        int status = analysis_run(a, m, &j->set.options, &j->p, &j->n, text, sizeof text);
+        int status = analysis_run(a, model, &j->set.options, &j->p, &j->n, text, sizeof text);
         timing_progress_end(&progress);
         if (status) return fail(j->set.file, text);
         if (a->status == NLC_OK) continue;

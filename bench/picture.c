@@ -233,7 +233,7 @@ static void draw_panel(const canvas *v, const analysis *a, double x)
     double unit;
     const char *prefix = unit_prefix(fmax(v->in->hertz->total, a->total), &unit);
     fprintf(v->out, "<g transform=\"translate(%.1f %d)\">\n", x, HEAD);
-    fprintf(v->out, "<text class=\"title\" y=\"-30\">%s</text>\n<text y=\"-11\">total force %.4g %sN", a->model->title,
+    fprintf(v->out, "<text class=\"title\" y=\"-30\">%s</text>\n<text y=\"-11\">total force %.4g %sN", a->model,
             a->total / unit, prefix);
     if (a != v->in->hertz && v->in->hertz->total > 0)
         fprintf(v->out, " = <tspan font-weight=\"bold\">%.3f \xc3\x97 Hertz</tspan>", a->total / v->in->hertz->total);

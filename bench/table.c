@@ -184,7 +184,7 @@ static double value_stress(const table_input *in, const analysis *a, int which)
     return a->stress[which / 3][which % 3];
 }
 
-enum { STATUS, SWEEPS, RESIDUAL, SOLVE_TIME, BUILD_TIME, REPETITIONS };
+enum { STATUS, SWEEPS, RESIDUAL, SOLVE_TIME, SWEEP_TIME, BUILD_TIME, REPETITIONS };
 
 static double value_solution(const table_input *in, const analysis *a, int which)
 {
@@ -198,6 +198,8 @@ static double value_solution(const table_input *in, const analysis *a, int which
         return a->info.residual;
     case SOLVE_TIME:
         return 1e9 * a->solve_time / contacts;
+    case SWEEP_TIME:
+        return 1e9 * a->sweep_time / contacts;
     case BUILD_TIME:
         return 1e3 * a->build_time;
     default:
@@ -233,14 +235,14 @@ static void print_head(const table_input *in, FILE *out)
             value_input(in, NULL, TOUCHING_PAIRS), value_input(in, NULL, TOUCHING_WALLS), value_input(in, NULL, CANDIDATES),
             in->reach);
     fprintf(out, "%-*s", LABEL_WIDTH, "");
-    for (int m = 0; m < in->count; m++) fprintf(out, "%*s", COLUMN_WIDTH, in->results[m].model->title);
+    for (int m = 0; m < in->count; m++) fprintf(out, "%*s", COLUMN_WIDTH, in->results[m].model);
     fputc('\n', out);
 }
 
 static void print_csv_head(const table *t)
 {
     fputs("quantity,unit", t->out);
-    for (int m = 0; m < t->in->count; m++) fprintf(t->out, ",%s", t->in->results[m].model->option);
+    for (int m = 0; m < t->in->count; m++) fprintf(t->out, ",%s", t->in->results[m].model);
     fputc('\n', t->out);
     row(t, "particles", "1", "", FORM_COUNT, value_input, PARTICLES);
     row(t, "walls", "1", "", FORM_COUNT, value_input, WALLS);
@@ -309,6 +311,7 @@ static void print_solution(table *t)
     row(t, "sweeps", "1", "sweeps from zero displacement", FORM_COUNT, value_solution, SWEEPS);
     row(t, "residual", "1", "residual", FORM_POWER, value_solution, RESIDUAL);
     row(t, "solve_time_per_contact", "ns", "median time per contact and solve [ns]", FORM_COUNT, value_solution, SOLVE_TIME);
+    row(t, "sweep_time_per_contact", "ns", "the same of one sweep [ns]", FORM_COUNT, value_solution, SWEEP_TIME);
     row(t, "build_time", "ms", "median time to build the network [ms]", FORM_THREE_DECIMALS, value_solution, BUILD_TIME);
     row(t, "repetitions", "1", "repetitions", FORM_COUNT, value_solution, REPETITIONS);
 }

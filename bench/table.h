@@ -15,10 +15,10 @@ typedef struct table_input {
     const neighbours *n;
     double reach;
     const analysis *results; /* [count] the first is Hertz */
-    int count;               /* 1 ... ANALYSIS_MODELS */
+    int count;               /* >= 1 */
 } table_input;
 
-/* csv: one line per quantity, SI units, all digits.  Otherwise at most 100 columns wide, units chosen to be read. */
+/* csv: one line per quantity, SI units, all digits.  Otherwise 100 columns wide for three models, units chosen to be read. */
 void table_print(FILE *out, const table_input *in, bool csv);
 
 /* The prefix (0.001 as "m") with which a value reads best. */
