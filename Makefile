@@ -99,8 +99,9 @@ bench: $(B)/bench/bench $(B)/bench/steps ## time the library against Algorithm 1
 	@$(B)/bench/bench $(PACKING)
 	@$(B)/bench/steps $(PACKING)
 REFERENCES = $(filter-out %/hertz_pressure.csv,$(foreach d,reference fe,$(sort $(wildcard $(S)/bench/data/$(d)/*.csv))))
-accuracy: $(B)/bench/accuracy ## the models' forces beside exact elasticity and finite elements: a table, a chart
-	@$(B)/bench/accuracy --csv $(B)/accuracy.csv --svg $(B)/accuracy.svg $(REFERENCES)
+accuracy: $(B)/bench/accuracy ## the models' forces beside exact elasticity and finite elements, and their cost: tables, charts
+	@$(B)/bench/accuracy --csv $(B)/accuracy.csv --svg $(B)/accuracy.svg --packing $(PACKING) --cost $(B)/accuracy_cost.svg \
+		$(REFERENCES)
 
 # ---- tests
 TEST_SRC := $(sort $(wildcard $(S)/tests/test_*.c))

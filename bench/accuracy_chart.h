@@ -19,11 +19,14 @@ typedef struct accuracy_point {
 
 typedef struct accuracy_model {
     int32_t number; /* NLC_MODEL_... */
-    const char *name, *colour;
+    const char *name;
+    double rms;                     /* of all errors at exact tables */
+    double sweep_time, solve_time;  /* on a packing [ns a contact]; 0: not measured */
+    int64_t sweeps;                 /* in that solve */
 } accuracy_model;
 
 typedef struct accuracy_results {
-    const accuracy_model *const *model; /* [models] */
+    const accuracy_model *model; /* [models] */
     int models;
     const reference_table *table; /* [tables] */
     int tables;
@@ -33,5 +36,8 @@ typedef struct accuracy_results {
 
 /* A panel per table: the worst error over all nu against eps, both logarithmic; second group dashed.  See ferror(out). */
 void accuracy_chart_write_svg(FILE *out, const accuracy_results *a);
+
+/* rms against the time of a solve and, at the other end of a line, of a sweep, all logarithmic; packing: its name. */
+void accuracy_chart_write_cost(FILE *out, const accuracy_results *a, const char *packing);
 
 #endif

@@ -18,7 +18,7 @@ nu,other,eps_1,eps_2,force_1,force_2
 0,7,0.01,0.04,0.002,0.0256
 0.5,,0.09,0.01,0.096,0.0032
 END
-accuracy --models 1 --csv "$tmp/out.csv" --svg "$tmp/out.svg" "$tmp/table.csv" >"$tmp/out"
+accuracy --models hertz --csv "$tmp/out.csv" --svg "$tmp/out.svg" "$tmp/table.csv" >"$tmp/out"
 cut -d, -f3,4,5,6,9,10 "$tmp/out.csv" >"$tmp/errors"
 cat >"$tmp/expected" <<END
 nu,eps_1,eps_2,group,error,status
@@ -36,7 +36,7 @@ nu,eps_1,force_1,radius_ratio,young_ratio,other_nu
 0.5,0.02,0.002666666,1,inf,0
 0.5,0.02,0.002666666,1,0.75,0.5
 END
-accuracy --models 1 --csv "$tmp/out2.csv" "$tmp/sphere.csv" >/dev/null
+accuracy --models hertz --csv "$tmp/out2.csv" "$tmp/sphere.csv" >/dev/null
 cut -d, -f9 "$tmp/out2.csv" | tr '\n' ' ' | grep -q '^error 0.000000 0.333334 -0.428571 $' ||
     fail "errors with a second sphere: $(cat "$tmp/out2.csv")"
 # worst and rms of {1/3, 0} and of {-1/6, 1/9}
@@ -49,11 +49,17 @@ set --
 for file in "$S"/bench/data/reference/*.csv "$S"/bench/data/fe/*.csv; do
     case $file in */hertz_pressure.csv) ;; *) set -- "$@" "$file" ;; esac
 done
-accuracy --models 1,0 "$@" >"$tmp/out" || fail "the references cannot be read"
+accuracy --models hertz,sphere "$@" >"$tmp/out" || fail "the references cannot be read"
 for file; do
     name=$(basename "$(dirname "$file")")/$(basename "$file" .csv)
     grep -q "^  $(printf %.22s "$name") " "$tmp/out" || fail "no line for $name"
 done
+
+# Times and their chart; a model that costs nothing costs less.
+accuracy --models hertz,sphere --packing "$S/bench/data/b_die125_rd0.80.csv" --cost "$tmp/cost.svg" "$tmp/table.csv" >"$tmp/out"
+awk '/^  nlc_s/ { rows++; good += $(NF-1) > 0 && $(NF-1) < $NF } END { exit !(rows == 2 && good == 2) }' "$tmp/out" ||
+    fail "times: $(grep nlc_s "$tmp/out")"
+grep -q '>sphere</text>' "$tmp/cost.svg" && grep -q '</svg>' "$tmp/cost.svg" || fail "no chart of costs"
 
 refused() {
     status=0
@@ -69,7 +75,7 @@ sed 's/group 2/group 3/' "$tmp/table.csv" >"$tmp/bad.csv" && refused 2
 sed '/contact/d' "$tmp/table.csv" >"$tmp/bad.csv" && refused 2
 sed '5,$d' "$tmp/table.csv" >"$tmp/bad.csv" && refused 4
 sed 's/# contact: 0 0 2 group 1/& sphere/' "$tmp/table.csv" >"$tmp/bad.csv" && refused 4
-for arguments in "--models 9 x" "--models 1x x" "--wrong 1 x" "--csv" ""; do
+for arguments in "--models 1 x" "--models hertz, x" "--cost x x" "--wrong 1 x" "--csv" ""; do
     status=0
     accuracy $arguments >/dev/null 2>&1 || status=$?
     [ $status -eq 2 ] || fail "accuracy $arguments: status $status"
