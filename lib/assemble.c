@@ -1,37 +1,26 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* assemble.c - from contact forces to forces on the particles. */
-#include <string.h>
+#include "assemble.h"
 
-#include "network.h"
 #include "structs.h"
 #include "vector.h"
 
-/* A caller's array of vectors, at any address. */
-typedef struct vectors {
-    char *at;
-    ptrdiff_t stride;
-    int64_t count;
-} vectors;
-
-static void add(vectors v, int64_t k, double factor, const double *n)
+bool nlc_read_stride(ptrdiff_t *stride, int64_t count)
 {
-    double f[3];
-    memcpy(f, v.at + k * v.stride, sizeof f);
-    for (int x = 0; x < 3; x++) f[x] += factor * n[x];
-    memcpy(v.at + k * v.stride, f, sizeof f);
+    const ptrdiff_t size = 3 * sizeof(double);
+    if (*stride == 0) *stride = size;
+    if (*stride > -size && *stride < size) return false;
+    ptrdiff_t magnitude = *stride < 0 ? -(*stride + 1) : *stride;
+    return count <= 1 || magnitude <= PTRDIFF_MAX / count - 1;
 }
 
-/* Walls come behind the particles, and may not be wanted. */
-static void add_to_body(vectors particles, vectors walls, int64_t body, double factor, const double *n)
+nlc_body_forces nlc_forces_on(const nlc_network *n, double *F, ptrdiff_t F_stride, double *F_wall)
 {
-    if (body < particles.count)
-        add(particles, body, factor, n);
-    else if (walls.count > 0)
-        add(walls, body - particles.count, factor, n);
+    const int64_t particles = n->particle_count, walls = F_wall ? n->body_count - particles : 0;
+    return (nlc_body_forces){{(char *)F, F_stride, particles}, {(char *)F_wall, 3 * sizeof(double), walls}};
 }
 
-/* Index of the first vector that is not finite, or -1; *largest is raised to the largest magnitude of a component. */
-static int64_t first_not_finite(vectors v, double *largest)
+int64_t nlc_first_vector_not_finite(nlc_vectors v, double *largest)
 {
     for (int64_t k = 0; k < v.count; k++) {
         double f[3];
@@ -43,19 +32,21 @@ static int64_t first_not_finite(vectors v, double *largest)
     return -1;
 }
 
-static bool is_stride(ptrdiff_t stride, int64_t count)
+nlc_status nlc_check_assembly(const nlc_network *n, const nlc_body_forces *F, const double *force, const double *normal,
+                              double *largest, int64_t *culprit)
 {
-    const ptrdiff_t size = 3 * sizeof(double);
-    if (stride > -size && stride < size) return false;
-    ptrdiff_t magnitude = stride < 0 ? -(stride + 1) : stride;
-    return count <= 1 || magnitude <= PTRDIFF_MAX / count - 1;
+    *largest = 0;
+    if ((*culprit = nlc_first_not_finite(force, n->contact_count)) >= 0) return NLC_ERROR_FORCE;
+    if ((*culprit = nlc_first_not_unit(normal, n->contact_count)) >= 0) return NLC_ERROR_NORMAL;
+    if ((*culprit = nlc_first_vector_not_finite(F->particles, largest)) >= 0) return NLC_ERROR_TOTAL_FORCE;
+    if ((*culprit = nlc_first_vector_not_finite(F->walls, largest)) < 0) return NLC_OK;
+    *culprit += n->particle_count;
+    return NLC_ERROR_TOTAL_FORCE;
 }
 
-/* Whether no sum can overflow. */
-static bool in_range(const nlc_network *n, double largest, const double *force)
+bool nlc_sums_in_range(const nlc_network *n, double largest, int exponent)
 {
-    int sum = nlc_exponent_above(nlc_largest_magnitude(force, n->contact_count)) + 1 +
-              nlc_exponent_above(2 * (double)n->contact_count);
+    const int sum = exponent + 1 + nlc_exponent_above(2 * (double)n->contact_count);
     return sum <= 1022 && nlc_exponent_above(largest) <= 1023;
 }
 
@@ -63,7 +54,7 @@ nlc_status nlc_assemble(const nlc_network *network, double *NLC_RESTRICT F, ptrd
                         const double *NLC_RESTRICT force, const double *NLC_RESTRICT normal, nlc_info *info)
 {
     int64_t culprit;
-    double largest = 0;
+    double largest;
     if (!nlc_info_is_valid(info)) return NLC_ERROR_STRUCT_SIZE;
     if (!network) return nlc_error(info, NLC_ERROR_NULL, 0);
     if (!nlc_network_is_valid(network)) return nlc_error(info, NLC_ERROR_NETWORK, -1);
@@ -72,24 +63,17 @@ nlc_status nlc_assemble(const nlc_network *network, double *NLC_RESTRICT F, ptrd
     if (particles > 0 && !F) return nlc_error(info, NLC_ERROR_NULL, 1);
     if (!force) return nlc_error(info, NLC_ERROR_NULL, 4);
     if (!normal) return nlc_error(info, NLC_ERROR_NULL, 5);
-    if (F_stride == 0) F_stride = 3 * sizeof(double);
-    if (!is_stride(F_stride, particles)) return nlc_error(info, NLC_ERROR_STRIDE, 2);
-    if ((culprit = nlc_first_not_finite(force, count)) >= 0) return nlc_error(info, NLC_ERROR_FORCE, culprit);
-    if ((culprit = nlc_first_not_unit(normal, count)) >= 0) return nlc_error(info, NLC_ERROR_NORMAL, culprit);
-    const vectors on_particles = {(char *)F, F_stride, particles};
-    const vectors on_walls = {(char *)F_wall, 3 * sizeof(double), F_wall ? network->body_count - particles : 0};
-    if ((culprit = first_not_finite(on_particles, &largest)) >= 0) return nlc_error(info, NLC_ERROR_TOTAL_FORCE, culprit);
-    if ((culprit = first_not_finite(on_walls, &largest)) >= 0)
-        return nlc_error(info, NLC_ERROR_TOTAL_FORCE, particles + culprit);
-    if (!in_range(network, largest, force)) return nlc_error(info, NLC_ERROR_RANGE, -1);
+    if (!nlc_read_stride(&F_stride, particles)) return nlc_error(info, NLC_ERROR_STRIDE, 2);
+    const nlc_body_forces on = nlc_forces_on(network, F, F_stride, F_wall);
+    const nlc_status status = nlc_check_assembly(network, &on, force, normal, &largest, &culprit);
+    if (status != NLC_OK) return nlc_error(info, status, culprit);
+    if (!nlc_sums_in_range(network, largest, nlc_exponent_above(nlc_largest_magnitude(force, count))))
+        return nlc_error(info, NLC_ERROR_RANGE, -1);
 
     nlc_info record = nlc_new_info();
     for (int64_t c = 0; c < count; c++) {
-        const int64_t i = network->i[c], j = network->j[c];
         record.active += force[c] > 0;
-        if (i == j) continue; /* equal and opposite forces on one particle */
-        add_to_body(on_particles, on_walls, i, -force[c], normal + 3 * c);
-        add_to_body(on_particles, on_walls, j, force[c], normal + 3 * c);
+        nlc_add_pair(network, &on, c, force[c], normal + 3 * c);
     }
     return nlc_report(info, &record, NLC_OK);
 }
