@@ -44,8 +44,18 @@ static inline double nlc_length_of(const nlc_network *n, int64_t particle)
 double nlc_tilt(const nlc_network *network, int64_t side, int64_t particle);
 
 /*
- * places.c: where contact points are ([MC] III), from the displacements of the sides: on each surface or, where these overlap, midway
- * between them.  Into network->own, see NLC_SHAPE_PLACE; no farther than R/2 from the undeformed surface.
+ * Where the contact point of a side is ([MC] III), outward from its undeformed surface: on the displaced one or, where that
+ * overlaps the other side's, midway between them.
+ */
+static inline double nlc_place(double own, double other, double overlap)
+{
+    const double x = overlap + (own + other);
+    return own - 0.25 * (x + fabs(x));
+}
+
+/*
+ * places.c: such places from the displacements of the sides.  Into network->own, see NLC_SHAPE_PLACE; no farther than R/2 from the
+ * undeformed surface.
  */
 void nlc_set_places(nlc_network *network, const double *side, const double *overlap, double per_overlap);
 

@@ -15,8 +15,8 @@ void nlc_set_places(nlc_network *n, const double *side, const double *overlap, d
         const int64_t c = e >> 1, body = e & 1 ? n->j[c] : n->i[c];
         n->own[e] = 0;
         if (!(yield_of(n, body) > 0)) continue;
-        const double x = overlap[c] * per_overlap + side[2 * c] + side[2 * c + 1], overlapping = 0.5 * (x + fabs(x));
-        const double length = nlc_length_of(n, body), most = FARTHEST * length, place = side[e] - 0.5 * overlapping;
+        const double length = nlc_length_of(n, body), most = FARTHEST * length;
+        const double place = nlc_place(side[e], side[e ^ 1], overlap[c] * per_overlap);
         n->own[e] = (place > most ? most : place < -most ? -most : place) / length;
     }
 }
