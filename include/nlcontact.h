@@ -100,10 +100,11 @@ extern "C" {
     X(NLC_ERROR_NORMAL,         -23, "a contact normal is not finite or not of unit length",             "contact")         \
     X(NLC_ERROR_NONLOCAL,       -24, "a nonlocal displacement is not finite",                            "contact")         \
     X(NLC_ERROR_FORCE,          -25, "a contact force is not finite",                                    "contact")         \
-    X(NLC_ERROR_TOTAL_FORCE,    -26, "a force to be added to is not finite",                             "particle or wall")\
+    X(NLC_ERROR_TOTAL_FORCE,    -26, "a force or torque to be added to is not finite",                   "particle or wall")\
     X(NLC_ERROR_COINCIDENT,     -27, "two contacts of one particle lie in the same direction",           "contact")         \
     X(NLC_ERROR_RANGE,          -28, "a result is beyond the range of double",                           "contact or -1")   \
     X(NLC_ERROR_UNSTABLE,       -29, "the state is beyond the end of the stable branch",                 "-1")              \
+    X(NLC_ERROR_SLIDING,        -30, "a direction of sliding is not a unit vector along the surfaces",   "contact")         \
     X(NLC_WARNING_CLOSE,          1, "circles of contact overlap: the model does not hold there",        "-1")              \
     X(NLC_WARNING_ROUNDING,       2, "rounding keeps the forces from reaching the tolerance",            "-1")              \
     X(NLC_WARNING_WEAKENED,       4, "beyond the stable branch: the coupling was weakened",              "-1")              \
@@ -786,6 +787,50 @@ NLC_API nlc_status nlc_tangent_bound(nlc_network *network, double *NLC_RESTRICT 
 NLC_API nlc_status nlc_assemble(const nlc_network *network, double *NLC_RESTRICT F, ptrdiff_t F_stride,
                                 double *NLC_RESTRICT F_wall, const double *NLC_RESTRICT force,
                                 const double *NLC_RESTRICT normal, nlc_info *info);
+
+/*
+ * nlc_assemble_sliding - the same with saturated friction where contacts slide, and its torques at the contact points of deformed
+ * particles.                                                                                               [MC] III, IV
+ *
+ *     F[i] += -P n + mu P t        torque[i] += rho_i n x (mu P t)           rho_i = R_i + w_i - x_+ / 2
+ *     F[j] -= -P n + mu P t        torque[j] += rho_j n x (mu P t)           x = gamma + w_i + w_j,  x_+ = max(x, 0)
+ *
+ * t is the direction in which i's surface is pulled: opposite to the velocity by which it slides past j's, t = -v / |v|, v the
+ * tangential part of (v_i + rho_i omega_i x n) - (v_j - rho_j omega_j x n).  [MC] says that friction has the magnitude mu P and a
+ * direction that opposes sliding, and prints no sign.  Its torque "f_t x r" is r x f here, r from the centre of the particle to
+ * the contact point: +rho_i n, or -rho_j n.  Forces along n make no torque.
+ *
+ * w_i and w_j are the displacements of the two sides: contact points are on the displaced surfaces or, where these overlap,
+ * midway between them.  There the levers add up to the distance of the centres, and the angular momentum is kept.  [MC] argues
+ * for the middle with equal moduli; it is taken for all, at rigid bodies and walls, too, as nlc_solve does in
+ * NLC_MODEL_HALF_SPACE at deformed contact points (no farther than R/2 from the undeformed surface; levers have no such limit).
+ *
+ * network          from nlc_network_init
+ * F                [particles][3] in-out [N]
+ * F_stride         bytes from one particle's force to the next; 0: packed, 24
+ * torque           [particles][3] in-out, about the centres [N m]
+ * torque_stride    likewise
+ * F_wall           [walls][3] in-out [N], or NULL.  Walls have no centre, and no torque.
+ * force            [contacts] any finite values [N]; a pull, P < 0, has no friction
+ * normal           [contacts][3] as for nlc_solve
+ * sliding          [contacts][3] t: unit vectors, | |t|^2 - 1 | <= 1e-6, with |t.n| <= 1e-6, used as given; or zeros, where there
+ *                  is no friction
+ * displacement     [contacts][2] w on i's side, on j's side [m], > 0 outward, as nlc_sweep gives them for these forces; or NULL:
+ *                  no displacements
+ * overlap          [contacts] gamma [m]
+ * friction         mu >= 0, finite
+ * info             or NULL
+ * A particle's contact with itself (i = j) adds no force, and the torques of both sides.  Exchanging i and j of a contact, with
+ * its normal and t reversed and its displacements exchanged, changes no bit.  NLC_ERROR_RANGE: a lever or the sum of all
+ * magnitudes might exceed the range of double.
+ * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _STRIDE, _OPTION (friction), _FORCE, _NORMAL, _TOTAL_FORCE (F, F_wall
+ * or torque), _SLIDING, _NONLOCAL (displacement), _OVERLAP, _RANGE.
+ */
+NLC_API nlc_status nlc_assemble_sliding(const nlc_network *network, double *NLC_RESTRICT F, ptrdiff_t F_stride,
+                                        double *NLC_RESTRICT torque, ptrdiff_t torque_stride, double *NLC_RESTRICT F_wall,
+                                        const double *NLC_RESTRICT force, const double *NLC_RESTRICT normal,
+                                        const double *NLC_RESTRICT sliding, const double *NLC_RESTRICT displacement,
+                                        const double *NLC_RESTRICT overlap, double friction, nlc_info *info);
 
 #ifdef __cplusplus
 }

@@ -22,7 +22,7 @@ typedef struct fixture {
     nlc_options options;
     nlc_info info;
     size_t size;
-    double force[5], nonlocal[5], displacement[10], F[12], F_wall[3];
+    double force[5], nonlocal[5], displacement[10], sliding[15], F[12], torque[12], F_wall[3], friction;
 } fixture;
 
 static fixture f;
@@ -49,6 +49,8 @@ static void setup(void)
     f.size = nlc_network_size(&f.view, f.s.contacts, &f.options);
     ck_assert_uint_gt(f.size, 0);
     for (int c = 0; c < 5; c++) f.force[c] = 1 + c;
+    f.sliding[2] = f.sliding[5] = f.sliding[13] = 1; /* across the normals of 0, 1 and 4 */
+    f.friction = 0.3;
     memory_before = malloc(f.size);
     ck_assert_ptr_nonnull(memory_before);
     fp_trap();
@@ -96,6 +98,12 @@ static nlc_status sweep(void)
 static nlc_status assemble(void)
 {
     return nlc_assemble(f.s.network, f.F, 0, f.F_wall, f.force, f.s.normal, &f.info);
+}
+
+static nlc_status slide(void)
+{
+    return nlc_assemble_sliding(f.s.network, f.F, 0, f.torque, 0, f.F_wall, f.force, f.s.normal, f.sliding, f.displacement,
+                                f.s.overlap, f.friction, &f.info);
 }
 
 /* Do something to the input, call, expect, undo.  The memory of the network must be as before. */
@@ -449,6 +457,71 @@ START_TEST(models)
 }
 END_TEST
 
+/* The same with one of the pointers NULL, or with these strides. */
+static nlc_status slide_without(int k)
+{
+    return nlc_assemble_sliding(k == 0 ? 0 : f.s.network, k == 1 ? 0 : f.F, 0, k == 3 ? 0 : f.torque, 0, 0, k == 6 ? 0 : f.force,
+                                k == 7 ? 0 : f.s.normal, k == 8 ? 0 : f.sliding, 0, k == 10 ? 0 : f.s.overlap, 0.3, &f.info);
+}
+
+static nlc_status slide_with(ptrdiff_t F_stride, ptrdiff_t torque_stride)
+{
+    return nlc_assemble_sliding(f.s.network, f.F, F_stride, f.torque, torque_stride, 0, f.force, f.s.normal, f.sliding, 0,
+                                f.s.overlap, 0.3, &f.info);
+}
+
+START_TEST(sliding)
+{
+    const int pointers[] = {0, 1, 3, 6, 7, 8, 10};
+    const ptrdiff_t bad_stride[] = {8, -23, PTRDIFF_MAX, PTRDIFF_MIN};
+    uint64_t not_a_network[40] = {0};
+    keep();
+    for (int k = 0; k < 7; k++) demand(slide_without(pointers[k]), NLC_ERROR_NULL, pointers[k]);
+    for (int b = 0; b < 4; b++) {
+        demand(slide_with(bad_stride[b], 0), NLC_ERROR_STRIDE, 2);
+        demand(slide_with(0, bad_stride[b]), NLC_ERROR_STRIDE, 4);
+    }
+    demand(nlc_assemble_sliding((nlc_network *)not_a_network, f.F, 0, f.torque, 0, 0, f.force, f.s.normal, f.sliding, 0, f.s.overlap,
+                                0.3, &f.info), NLC_ERROR_NETWORK, -1);
+    for (int b = 0; b < 4; b++) {
+        const double bad = not_finite[b];
+        WITH(f.friction, bad, slide(), NLC_ERROR_OPTION, 11);
+        WITH(f.force[1], bad, slide(), NLC_ERROR_FORCE, 1);
+        WITH(f.s.normal[10], bad, slide(), NLC_ERROR_NORMAL, 3);
+        WITH(f.F[7], bad, slide(), NLC_ERROR_TOTAL_FORCE, 2);
+        WITH(f.F_wall[1], bad, slide(), NLC_ERROR_TOTAL_FORCE, 4);
+        WITH(f.torque[11], bad, slide(), NLC_ERROR_TOTAL_FORCE, 3);
+        WITH(f.sliding[14], bad, slide(), NLC_ERROR_SLIDING, 4);
+        WITH(f.sliding[6], bad, slide(), NLC_ERROR_SLIDING, 2); /* the others of its components are 0 */
+        WITH(f.displacement[7], bad, slide(), NLC_ERROR_NONLOCAL, 3);
+        WITH(f.s.overlap[2], bad, slide(), NLC_ERROR_OVERLAP, 2);
+    }
+    WITH(f.friction, -1e-300, slide(), NLC_ERROR_OPTION, 11);
+    const double bad_sliding[] = {1 + 1e-6, 1 - 1e-6, 0.5, 5e-324, 1e200, -1e308, 3};
+    for (int b = 0; b < 7; b++) WITH(f.sliding[2], bad_sliding[b], slide(), NLC_ERROR_SLIDING, 0);
+    WITH(f.sliding[0], 1.1e-6, slide(), NLC_ERROR_SLIDING, 0); /* along the normal of contact 0 */
+    WITH(f.sliding[0], -1.1e-6, slide(), NLC_ERROR_SLIDING, 0);
+    WITH(f.friction, 1.7e308, slide(), NLC_ERROR_RANGE, -1);
+    WITH(f.force[1], 1.7e308, slide(), NLC_ERROR_RANGE, -1);
+    WITH(f.F[1], 1.7e308, slide(), NLC_ERROR_RANGE, -1);
+    WITH(f.torque[1], -1.7e308, slide(), NLC_ERROR_RANGE, -1);
+    WITH(f.s.overlap[1], 1.7e308, slide(), NLC_ERROR_RANGE, -1);
+    WITH(f.s.overlap[3], -1.7e308, slide(), NLC_ERROR_RANGE, -1);
+    WITH(f.displacement[1], 1e308, slide(), NLC_ERROR_RANGE, -1);
+    f.friction = 1e-300; /* it is the lever that would overflow, then */
+    WITH(f.s.overlap[1], 1.7e308, slide(), NLC_ERROR_RANGE, -1);
+    WITH(f.displacement[9], -1.7e308, slide(), NLC_ERROR_RANGE, -1);
+    f.friction = 0.3;
+    f.s.overlap[1] = -1e303; /* large, but in range */
+    f.displacement[0] = 1e-320;
+    f.sliding[0] = 0.9e-6;
+    f.s.normal[4] = 1 + 4e-7;
+    ck_assert_int_eq(slide(), NLC_OK);
+    f.friction = 0;
+    ck_assert_int_eq(slide(), NLC_OK);
+}
+END_TEST
+
 START_TEST(prediction)
 {
     double previous[5] = {0};
@@ -489,6 +562,7 @@ START_TEST(empty_networks)
     ck_assert_int_eq(nlc_solve(network, 0, 0, 0, 0, 0), NLC_OK);
     ck_assert_int_eq(nlc_sweep(network, 0, 0, 0, 0, 0), NLC_OK);
     ck_assert_int_eq(nlc_assemble(network, 0, 0, 0, 0, 0, 0), NLC_OK);
+    ck_assert_int_eq(nlc_assemble_sliding(network, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0), NLC_OK);
     ck_assert_int_eq(nlc_set_options(network, 0, 0), NLC_OK);
     double e = 77;
     ck_assert_int_eq(nlc_energy(network, &e, 0, 0, 0, 0), NLC_OK);
@@ -514,6 +588,7 @@ int main(void)
     tcase_add_test(t, same_direction_and_range);
     tcase_add_test(t, energy_and_tangent);
     tcase_add_test(t, models);
+    tcase_add_test(t, sliding);
     tcase_add_test(t, prediction);
     tcase_add_test(t, empty_networks);
     tcase_add_test(t, every_error_was_met);

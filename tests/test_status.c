@@ -123,6 +123,8 @@ START_TEST(values_are_for_good)
     ck_assert_int_eq(NLC_ERROR_TOTAL_FORCE, -26);
     ck_assert_int_eq(NLC_ERROR_COINCIDENT, -27);
     ck_assert_int_eq(NLC_ERROR_RANGE, -28);
+    ck_assert_int_eq(NLC_ERROR_UNSTABLE, -29);
+    ck_assert_int_eq(NLC_ERROR_SLIDING, -30);
 }
 END_TEST
 
