@@ -15,11 +15,12 @@
 enum { STEPS = 1000, FEWEST = 20, SETTLE = 3, EXIT_USAGE = 2 };
 #define WORK 1e6 /* contacts times steps: fewer steps of large packings */
 
-static const char usage[] = "usage: steps FILE\n"
-                            "\n"
-                            "1000 steps of compression (fewer of a large packing), in which overlaps change by up to 1e-4 of the\n"
-                            "largest one.  What a step costs and how wrong its forces are, for solves from the step before, with and\n"
-                            "without nlc_predict, and for what codes without a solver do: displacements by the forces of the step before.\n";
+static const char usage[] =
+    "usage: steps FILE\n"
+    "\n"
+    "1000 steps of compression (fewer of a large packing), in which overlaps change by up to 1e-4 of the largest\n"
+    "one.  What a step costs and how wrong its forces are, for solves from the step before, with and without\n"
+    "nlc_predict, and for what codes without a solver do: displacements by the forces of the step before.\n";
 
 typedef struct method {
     const char *label;
@@ -176,7 +177,8 @@ static int prepare(scene *s, const char *path)
     const nlc_particles particles = packing_particles(&s->p);
     const size_t size = nlc_network_size(&particles, s->n.count, NULL);
     double **array[] = {&s->stiffness, &s->overlap, &s->g, &s->previous, &s->force, &s->exact, &s->exact_g};
-    bool there = (s->memory = malloc(size)) && (s->w = calloc(2 * contacts, sizeof(double))) && (s->scale = calloc(bodies, sizeof(double)));
+    bool there = (s->memory = malloc(size)) && (s->w = calloc(2 * contacts, sizeof(double)));
+    there = there && (s->scale = calloc(bodies, sizeof(double)));
     for (size_t k = 0; k < sizeof array / sizeof *array; k++) there = (*array[k] = calloc(contacts, sizeof(double))) && there;
     if (!there) return fail("no memory");
     const nlc_status status = nlc_network_init(&s->network, s->memory, size, &particles, s->n.i, s->n.j, s->n.count, NULL, NULL);

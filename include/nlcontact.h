@@ -633,9 +633,9 @@ NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *opti
  *
  * Work is done only where there is something to solve for: not on contacts without force, on pairs that no other force moves, or
  * on rigid and flat sides (info.left_out); where forces change in a small part of the scene only, that is solved for first
- * (info.settled) and the whole with little to do from there; clusters of contacts that no yielding particle joins are solved apart (info.clusters),
- * and what happens in one changes no bit in another; and a scene so loose that Hertz's forces can be proved to be within
- * the tolerance, with sweeps = 0, is not solved for at all: residual is the proved error then, and nonlocal 0.
+ * (info.settled) and the whole with little to do from there; clusters of contacts that no yielding particle joins are solved
+ * apart (info.clusters), and what happens in one changes no bit in another; and a scene so loose that Hertz's forces can be
+ * proved to be within the tolerance is not solved for at all: then sweeps = 0, residual is the proved error, and nonlocal 0.
  *
  * Models.  In NLC_MODEL_SPHERE the coefficients depend on the forces, but there is an energy, and all of the above holds with the
  * coupling of its tangent in the place of C, what a contact's force does to the contact itself included.  NLC_MODEL_LOVE and
@@ -644,8 +644,8 @@ NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *opti
  * amplification met), lambda_lower and lambda_upper stay infinite, and whether the state counts as stable, and how far the
  * coupling is weakened, is decided by the coefficients of NLC_MODEL_GONZALEZ_CUITINO (times the prefactor), whose limit for small
  * circles and displacements they are.  Weakened, the half-space is taken at undeformed points; where it finds no
- * solution at deformed ones although those are stable, it returns theirs with NLC_WARNING_NOT_CONVERGED.  It is also solved in one piece,
- * not cluster by cluster, and the displacements of the two sides are found anew in each solve, in as many sweeps.
+ * solution at deformed ones although those are stable, it returns theirs with NLC_WARNING_NOT_CONVERGED.  It is also solved in
+ * one piece, not cluster by cluster, and the displacements of the two sides are found anew in each solve, in as many sweeps.
  *
  * NLC_METHOD_FIXED_POINT is [GC] Algorithm 1, for reference.  Erratum mended: as printed it adds each sweep's displacements to
  * those of the sweep before; here each sweep starts from zero, as [GC] 9 has it.  It estimates its error from the rate at

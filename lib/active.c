@@ -68,7 +68,8 @@ int64_t nlc_mark_active(nlc_network *n, const double *overlap)
     for (int64_t c = 0; c < n->contact_count; c++) {
         const double x = overlap[c] + n->current[c], top = largest_nearby(n, c);
         const bool unknown = nlc_abs_bits(n->current[c]) == 0;
-        n->mark[c] = x > 0 || overlap[c] > 0 || (cold ? is_within_reach(n, c) : unknown ? top > 0 : x > -NEAR * top) ? NLC_IN : NLC_OUT;
+        const bool near = cold ? is_within_reach(n, c) : unknown ? top > 0 : x > -NEAR * top;
+        n->mark[c] = x > 0 || overlap[c] > 0 || near ? NLC_IN : NLC_OUT;
     }
     return count_marks(n);
 }
@@ -237,7 +238,8 @@ int64_t nlc_check_rest(nlc_network *n, const double *overlap, const double *norm
         if (n->j[c] < n->particle_count) n->changed[n->j[c]] = 1;
     }
     for (int64_t c = 0; c < n->contact_count && touching > 0; c++) {
-        const bool beside = (n->i[c] < n->particle_count && n->changed[n->i[c]]) || (n->j[c] < n->particle_count && n->changed[n->j[c]]);
+        const int64_t i = n->i[c], j = n->j[c];
+        const bool beside = (i < n->particle_count && n->changed[i]) || (j < n->particle_count && n->changed[j]);
         if (n->mark[c] == NLC_OUT && beside && (overlap[c] + n->current[c] > 0 || largest_nearby(n, c) > 0)) n->mark[c] = NLC_NEW;
     }
     return touching;

@@ -25,8 +25,8 @@ static inline bool nlc_is_in(const nlc_network *n, int64_t c)
 }
 
 /*
- * Marks the contacts that overlap with the displacements in n->current or are not far from it (see there), and returns how many of them are
- * not pairs on their own.
+ * Marks the contacts that overlap with the displacements in n->current or are not far from it (see there), and returns how
+ * many of them are not pairs on their own.
  * n->largest holds the largest overlap on each particle.
  */
 int64_t nlc_mark_active(nlc_network *n, const double *overlap);

@@ -22,7 +22,7 @@ typedef struct nlc_anderson {
     double most;            /* no component of x grows beyond */
 } nlc_anderson;
 
-/* The columns are laid into the memory of the network's directions: 10 of vectors as long as there are contacts, or 5 twice as long. */
+/* The columns lie in the memory of the network's directions: 10 of vectors as long as there are contacts, or 5 twice as long. */
 void nlc_anderson_start(nlc_anderson *h, nlc_network *network, int64_t length, double *old_x, double *old_r, double most);
 
 /* Forgets what was. */

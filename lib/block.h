@@ -9,7 +9,7 @@
 
 #include "network.h"
 
-/* An upper bound of its largest eigenvalue: trace/m + [(m-1)/m (|B|^2 - trace^2/m)]^(1/2) with the Frobenius norm (Wolkowicz and Styan). */
+/* A bound of its largest eigenvalue by the Frobenius norm: trace/m + [(m-1)/m (|B|^2 - trace^2/m)]^(1/2), Wolkowicz and Styan. */
 double nlc_block_norm(const nlc_network *network, const double *normal, int64_t particle);
 
 /* Whether its largest eigenvalue is at most beta. */

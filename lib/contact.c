@@ -11,7 +11,8 @@ void nlc_set_approach(nlc_network *n, const double *force)
         n->approach[c] = 0;
         if (!(force[c] > 0)) continue;
         const double x = nlc_hertz_overlap(nlc_join(n->stiffness[c], n->stiffness_unit), force[c]);
-        const double a = i < n->particle_count ? nlc_length_of(n, i) : INFINITY, b = j < n->particle_count ? nlc_length_of(n, j) : INFINITY;
+        const double a = i < n->particle_count ? nlc_length_of(n, i) : INFINITY;
+        const double b = j < n->particle_count ? nlc_length_of(n, j) : INFINITY;
         const double cap = a < b ? a : b;
         n->approach[c] = nlc_is_finite(x) && x < cap ? x : cap;
     }
@@ -36,7 +37,8 @@ double nlc_circle2(const nlc_network *n, int64_t e, int64_t particle)
     return circle2(n, e, particle, nlc_length_of(n, particle));
 }
 
-void nlc_set_shapes(nlc_block *b, const nlc_network *n, nlc_response response, const double *normal, int64_t particle, int64_t begin)
+void nlc_set_shapes(nlc_block *b, const nlc_network *n, nlc_response response, const double *normal, int64_t particle,
+                    int64_t begin)
 {
     const double length = nlc_length_of(n, particle);
     const nlc_shape shape = n->settings.model->shape;
@@ -70,7 +72,8 @@ static double quartic(const nlc_network *n, int64_t e, int64_t particle, double 
 {
     const int64_t other = nlc_other_body(n, e);
     if (other >= n->particle_count || n->scale[other] > 0) return t2 * t2;
-    const double r = n->radius[particle], s = n->radius[other], larger = r > s ? r : s, ratio = (r / larger) / (s / larger + 1e-100);
+    const double r = n->radius[particle], s = n->radius[other], larger = r > s ? r : s;
+    const double ratio = (r / larger) / (s / larger + 1e-100);
     return t2 * t2 * (1 + ratio * ratio * ratio);
 }
 

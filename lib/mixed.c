@@ -135,7 +135,8 @@ void nlc_mixed(nlc_network *n, const double *overlap, const double *normal, nlc_
     start(&q, &v);
     if (!iterate(&q, &v, out)) {
         memcpy(n->spare[2], n->spare[4], (size_t)n->contact_count * sizeof *overlap);
-        for (int64_t e = 0; e < 2 * n->contact_count; e++) n->own[e] = 0; /* the equations with weakened coupling are those of undeformed points */
+        /* the equations with weakened coupling are those of undeformed points */
+        for (int64_t e = 0; e < 2 * n->contact_count; e++) n->own[e] = 0;
         out->status = NLC_OK;
         nlc_weaken(&q, out);
         if (v.sides && out->status >= 0 && out->info.weakened == 0) out->status |= NLC_WARNING_NOT_CONVERGED; /* other equations */

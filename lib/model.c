@@ -61,7 +61,7 @@ const nlc_model nlc_models[] = {
                           .doi = "",
                           .validity = "up to overlaps of 1, 5, 10 % of R (contact radius 0.44 R): 0.1, 0.1,"
                                       " 0.3 % off at right angles, 0.1, 0.2, 1.8 % at 60 degrees, 0.1, 0.8,"
-                                      " 3.4 % at 40; unequal spheres 0.1, 0.7, 2.4 %",
+                                      " 3.4 % at 40; unequal spheres 0.1, 0.3, 1.1 %",
                           .cost = 7.5,
                           .symmetric = true,
                           .potential = true,

@@ -125,7 +125,8 @@ static inline void nlc_set_units(nlc_network *n, int length, int stiffness)
 nlc_status nlc_displace(nlc_network *network, nlc_response response, const double *force, const double *normal, int64_t *culprit);
 
 /* The same for the sides of one particle.  False: two directions are the same. */
-bool nlc_displace_particle(nlc_network *network, nlc_response response, const double *force, const double *normal, int64_t particle);
+bool nlc_displace_particle(nlc_network *network, nlc_response response, const double *force, const double *normal,
+                           int64_t particle);
 
 /* The later one of two contacts of a particle that lie in the same direction; -1: none do. */
 int64_t nlc_find_coincident(const nlc_network *network, const double *normal, int64_t particle);
@@ -162,7 +163,7 @@ void nlc_mixed(nlc_network *network, const double *overlap, const double *normal
 /* galerkin.c: the default of models with one. */
 void nlc_galerkin(nlc_network *network, const double *overlap, const double *normal, nlc_outcome *outcome);
 
-/* loose.c: whether all forces are those of Hertz to the tolerance.  If so, sets residual, worst_contact and the bounds of lambda. */
+/* loose.c: whether all forces are those of Hertz to the tolerance.  If so, sets residual, worst_contact and bounds of lambda. */
 bool nlc_is_loose(nlc_network *network, const double *overlap, const double *normal, nlc_outcome *outcome);
 
 /* close.c: whether somewhere the circles of two contacts with network->current overlap. */

@@ -91,7 +91,8 @@ static void solve_linear(nlc_network *n, double *x, double *b, const double *nor
 }
 
 /* What the four functions check; the vector may be NULL where there is none. */
-static nlc_status check(nlc_network *n, const double *in, const double *force, const double *normal, nlc_status bad_in, int64_t *culprit)
+static nlc_status check(nlc_network *n, const double *in, const double *force, const double *normal, nlc_status bad_in,
+                        int64_t *culprit)
 {
     if (in && (*culprit = nlc_first_not_finite(in, n->contact_count)) >= 0) return bad_in;
     if ((*culprit = nlc_first_not_force(force, n->contact_count)) >= 0) return NLC_ERROR_FORCE;
