@@ -20,7 +20,7 @@
 #define RESTART_STEP 0.3
 #define GROWTH 4.0 /* of the residual: then back to the best, with shorter steps */
 #define STEPS 150
-#define HOPELESS 1e3 /* residual relative to that of the start */
+#define HOPELESS 1e3 /* residual relative to the overlaps */
 
 typedef struct vectors {
     int64_t length;
@@ -88,15 +88,20 @@ static bool is_stable(nlc_iteration *q, nlc_outcome *out)
 static bool iterate(nlc_iteration *q, vectors *v, nlc_outcome *out)
 {
     nlc_network *n = q->n;
-    double first = INFINITY;
+    double applied = 0; /* sum of the squares of the overlaps */
     nlc_anderson h;
     nlc_anderson_start(&h, n, v->length, n->lanczos[0], n->lanczos[2], NLC_FARTHEST);
     nlc_anderson_reset(&h, FIRST_STEP);
+    for (int64_t c = 0; c < n->contact_count; c++) applied += plus(q->overlap[c] * q->load) * plus(q->overlap[c] * q->load);
     for (int k = 0; k < STEPS; k++) {
         double change = 0;
         const double norm = evaluate(q, v, &change, out);
         if (out->status < 0) return true;
-        first = k == 0 ? norm : first;
+        if (k == 0 && v->sides && nlc_is_repelled(q)) {
+            nlc_relax(q); /* by point forces on the undeformed sphere */
+            start(q, v);
+            continue;
+        }
         out->info.residual = SAFETY * change * nlc_anderson_amplification(&h);
         if (out->info.residual <= n->settings.tolerance && (k > 0 || change <= 0)) return is_stable(q, out);
         if (change <= 1e-15 && k > 3) {
@@ -107,7 +112,7 @@ static bool iterate(nlc_iteration *q, vectors *v, nlc_outcome *out)
             out->status = NLC_WARNING_NOT_CONVERGED;
             return true;
         }
-        if (norm > HOPELESS * HOPELESS * first) return false;
+        if (norm > HOPELESS * HOPELESS * applied) return false;
         if (norm > GROWTH * GROWTH * h.smallest) {
             memcpy(v->x, v->best, (size_t)v->length * sizeof *v->x);
             nlc_anderson_reset(&h, RESTART_STEP);

@@ -67,7 +67,10 @@ static void begin_anew(nlc_iteration *q)
 {
     nlc_network *n = q->n;
     double *repelled = n->slope;
-    for (int64_t c = 0; c < n->contact_count; c++) repelled[c] = n->current[c] < -NLC_REPELLED * nlc_overlap_nearby(q, c);
+    /* what is spread are point forces: where contacts have a size, what is there has other parts, and all begin anew */
+    const bool all = !nlc_is_linear(n->settings.model->shape);
+    for (int64_t c = 0; c < n->contact_count; c++) repelled[c] = all || n->current[c] < -NLC_REPELLED * nlc_overlap_nearby(q, c);
+    for (int64_t c = 0; c < n->contact_count && all; c++) n->force[c] = n->current[c] = 0;
     for (int64_t c = 0; c < n->contact_count; c++)
         if (repelled[c] > 0) give(q, c, 0);
     for (int level = 0; level < LEVELS; level++)

@@ -95,6 +95,34 @@ START_TEST(close_pairs)
 }
 END_TEST
 
+/*
+ * Two contacts in nearly one place, in every model whose coefficients are singular there: the larger overlap stays, the other one is
+ * pushed open, at once and with a warning.
+ */
+START_TEST(nearly_one_place)
+{
+    const int32_t models[] = {NLC_MODEL_GONZALEZ_CUITINO, NLC_MODEL_HALF_SPACE, NLC_MODEL_SPHERE, NLC_MODEL_POINT_FORCE};
+    for (int m = 0; m < 4; m++)
+        for (double apart = 1e-3; apart > 1e-9; apart /= 10)
+            for (int larger = 0; larger < 2; larger++) {
+                scene s;
+                nlc_info info = {.struct_size = sizeof info};
+                scene_init(&s);
+                s.options.model = models[m];
+                scene_particle(&s, 1e-3, scene_material(&s, 1e6, 0.3));
+                const int32_t wall = 1 + scene_wall(&s, scene_material(&s, INFINITY, 0));
+                scene_contact(&s, 0, wall, larger == 0 ? 2e-5 : 1.9e-6, 1, 0, 0);
+                scene_contact(&s, 0, wall, larger == 1 ? 2e-5 : 1.9e-6, 1, apart, 0);
+                const nlc_status status = scene_solve(&s, &info);
+                ck_assert_msg(status == NLC_WARNING_CLOSE && info.sweeps <= 12, "model %d, %g rad: status %d, %jd sweeps", models[m],
+                              apart, status, (intmax_t)info.sweeps);
+                const double hertz = nlc_hertz_force((double)scene_stiffness(&s, 0), 2e-5);
+                ck_assert(s.force[larger] > 0.99 * hertz && s.force[larger] < 1.2 * hertz && s.force[1 - larger] <= 0);
+                scene_free(&s);
+            }
+}
+END_TEST
+
 /* Scenes whose stable branch ends: cells, noisy crystals, a packing of almost incompressible grains. */
 #define ENDING 8
 static const char *ending(scene *s, int which, double *end)
@@ -209,6 +237,7 @@ int main(void)
     tcase_set_timeout(t, 120);
     tcase_add_loop_test(t, crowded_sphere, 0, 3);
     tcase_add_test(t, close_pairs);
+    tcase_add_test(t, nearly_one_place);
     tcase_add_test(t, slow_compression);
     tcase_add_loop_test(t, beyond_the_end, 0, ENDING);
     suite_add_tcase(suite, t);
