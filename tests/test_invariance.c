@@ -512,7 +512,7 @@ START_TEST(hertz_where_that_is_good_enough)
     double *overlap = malloc((size_t)s.contacts * sizeof *overlap);
     memcpy(overlap, s.overlap, (size_t)s.contacts * sizeof *overlap);
     s.options.tolerance = 1e-3;
-    for (double load = 1; load > 1e-12; load *= 0.3) {
+    for (double load = 0.1; load > 1e-12; load *= 0.1) {
         nlc_info info = {.struct_size = sizeof info};
         for (int64_t c = 0; c < s.contacts; c++) s.overlap[c] = overlap[c] > 0 ? load * overlap[c] : overlap[c];
         ck_assert(scene_oracle(&s, 1, exact) < 1e-15L);
@@ -529,7 +529,7 @@ START_TEST(hertz_where_that_is_good_enough)
             nlc_assert_rel(s.force[c], nlc_hertz_force((double)scene_stiffness(&s, c), s.overlap[c]), 1e-15);
         if (verbose()) printf("load %g: error %.1e, bound %.1e, lambda <= %.1e\n", load, error, info.residual, info.lambda_upper);
     }
-    ck_assert(skipped >= 5 && solved >= 5);
+    ck_assert(skipped >= 3 && solved >= 3);
     free(exact), free(overlap);
     scene_free(&s);
 }
