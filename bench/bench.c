@@ -21,7 +21,8 @@ static const char usage[] =
     "Times the library's functions on packings, and one sweep of Algorithm 1 as printed beside nlc_sweep.\n"
     "In every run each function is timed once, one after the other, so that they meet the same conditions.\n";
 
-enum { COUPLED, HERTZ, FIXED_POINT, NETWORKS };
+enum { COUPLED, HERTZ, FIXED_POINT, COARSE, NETWORKS };
+#define COARSE_TOLERANCE 1e-3
 
 /* A packing with all that the functions need. */
 typedef struct bench {
@@ -30,12 +31,15 @@ typedef struct bench {
     nlc_particles particles;
     void *memory[NETWORKS];
     size_t memory_size;
-    nlc_network *coupled, *hertz, *fixed_point;
+    nlc_network *coupled, *hertz, *fixed_point, *coarse;
     algorithm1 reference;
     double *force, *nonlocal; /* [contacts] the solution */
     double *work, *start;     /* [contacts] */
     double *loose, *known;    /* [contacts] overlaps with a small part compressed, and displacements that solve them */
     double *moved;            /* [contacts] overlaps that differ from the packing's in that part only, by 1e-3 */
+    double *stiff;            /* [contacts] overlaps of grains 1e10 times as stiff */
+    double *scattered;        /* [contacts] overlaps of which every hundredth is left: small clusters */
+    double *scattered_known;  /* [contacts] displacements that solve them */
     double *displacement;     /* [contacts][2] */
     double *resultant;        /* [particles][3] */
     double *wall_resultant;   /* [walls][3] */
@@ -76,6 +80,7 @@ static nlc_status build(bench *b, int which, nlc_network **network)
     nlc_options options = {.struct_size = sizeof options};
     if (which == HERTZ) options.model = NLC_MODEL_HERTZ;
     if (which == FIXED_POINT) options.method = NLC_METHOD_FIXED_POINT;
+    if (which == COARSE) options.tolerance = COARSE_TOLERANCE;
     return nlc_network_init(network, b->memory[which], b->memory_size, &b->particles, b->n.i, b->n.j, b->n.count, &options,
                             NULL);
 }
@@ -122,6 +127,16 @@ static nlc_status run_moved(bench *b)
     return solve(b, b->coupled, b->moved, b->nonlocal);
 }
 
+static nlc_status run_scattered(bench *b)
+{
+    return solve(b, b->coupled, b->scattered, b->scattered_known);
+}
+
+static nlc_status run_stiff(bench *b)
+{
+    return solve(b, b->coarse, b->stiff, NULL);
+}
+
 static nlc_status run_assemble(bench *b)
 {
     return nlc_assemble(b->coupled, b->resultant, 0, b->wall_resultant, b->force, normals(b), NULL);
@@ -143,6 +158,8 @@ static const struct {
     {"nlc_solve_moved", "nlc_solve when 1 % has moved by 1e-3", run_moved},
     {"nlc_solve_loose", "nlc_solve from zeros, 1 % compressed", run_loose},
     {"nlc_solve_loose_again", "nlc_solve from its result, 1 % compressed", run_loose_again},
+    {"nlc_solve_scattered", "nlc_solve from its result, 1 % in clusters", run_scattered},
+    {"nlc_solve_stiff", "nlc_solve to 1e-3, where Hertz will do", run_stiff},
     {"nlc_assemble", "nlc_assemble", run_assemble},
 };
 enum { FUNCTIONS = sizeof functions / sizeof functions[0] };
@@ -161,12 +178,15 @@ static int allocate(bench *b)
     b->loose = calloc(contacts, sizeof(double));
     b->known = calloc(contacts, sizeof(double));
     b->moved = calloc(contacts, sizeof(double));
+    b->stiff = calloc(contacts, sizeof(double));
+    b->scattered = calloc(contacts, sizeof(double));
+    b->scattered_known = calloc(contacts, sizeof(double));
     b->displacement = calloc(contacts, 2 * sizeof(double));
     b->resultant = calloc((size_t)b->p.count, 3 * sizeof(double));
     b->wall_resultant = calloc((size_t)b->p.wall_count + 1, 3 * sizeof(double));
     bool bad = algorithm1_init(&b->reference, &b->p, &b->n) != 0;
     for (int k = 0; k < NETWORKS; k++) bad = bad || !b->memory[k];
-    bad = bad || !b->loose || !b->known || !b->moved || !b->force || !b->nonlocal || !b->work || !b->start || !b->displacement ||
+    bad = bad || !b->loose || !b->known || !b->moved || !b->stiff || !b->scattered || !b->scattered_known || !b->force || !b->nonlocal || !b->work || !b->start || !b->displacement ||
           !b->resultant || !b->wall_resultant;
     return bad ? fail("", "out of memory") : 0;
 }
@@ -181,9 +201,13 @@ static nlc_status loosen(bench *b)
             inside = inside && at * at * at < 0.01;
         }
         b->loose[c] = inside ? b->n.overlap[c] : -fabs(b->n.overlap[c]);
+        b->stiff[c] = b->n.overlap[c] > 0 ? 1e-10 * b->n.overlap[c] : b->n.overlap[c];
+        b->scattered[c] = c % 100 == 0 ? b->n.overlap[c] : -fabs(b->n.overlap[c]);
         b->moved[c] = inside ? 1.001 * b->n.overlap[c] : b->n.overlap[c];
     }
-    return nlc_solve(b->coupled, b->work, b->known, b->loose, normals(b), NULL);
+    const nlc_status status = nlc_solve(b->coupled, b->work, b->known, b->loose, normals(b), NULL);
+    if (status < 0) return status;
+    return nlc_solve(b->coupled, b->work, b->scattered_known, b->scattered, normals(b), NULL);
 }
 
 static int prepare(bench *b, const char *path)
@@ -198,6 +222,7 @@ static int prepare(bench *b, const char *path)
     nlc_status status = build(b, COUPLED, &b->coupled);
     if (!status) status = build(b, HERTZ, &b->hertz);
     if (!status) status = build(b, FIXED_POINT, &b->fixed_point);
+    if (!status) status = build(b, COARSE, &b->coarse);
     if (!status) status = loosen(b);
     b->info.struct_size = sizeof b->info;
     if (!status) status = nlc_solve(b->coupled, b->force, b->nonlocal, b->n.overlap, normals(b), &b->info);
@@ -212,6 +237,9 @@ static void release(bench *b)
     free(b->loose);
     free(b->known);
     free(b->moved);
+    free(b->stiff);
+    free(b->scattered);
+    free(b->scattered_known);
     free(b->force);
     free(b->nonlocal);
     free(b->work);
