@@ -34,7 +34,8 @@ typedef struct accuracy_results {
     int count;
 } accuracy_results;
 
-/* A panel per table: the worst error over all nu against eps, both logarithmic; second group dashed.  See ferror(out). */
+/* A panel per table: the worst error over all nu against eps, both logarithmic; second group dashed.  See ferror(out); nothing is
+ * written for want of memory. */
 void accuracy_chart_write_svg(FILE *out, const accuracy_results *a);
 
 /* rms against the time of a solve and, at the other end of a line, of a sweep, all logarithmic; packing: its name. */
