@@ -50,7 +50,7 @@ SHARED := $(B)/libnlcontact.so.$(VERSION)
 PC := $(B)/nlcontact.pc
 MAN := $(sort $(wildcard $(S)/man/*.3))
 
-.PHONY: all help lib demo bench accuracy packing check stress setup install uninstall dist clean FORCE
+.PHONY: all help lib demo bench accuracy figures packing check stress setup install uninstall dist clean FORCE
 all: lib packing ## build the libraries and the packing program
 lib: $(STATIC) $(SHARED) ## build the static and the shared library
 
@@ -103,6 +103,18 @@ accuracy: $(B)/bench/accuracy ## the models' forces beside exact elasticity and 
 	@$(B)/bench/accuracy --csv $(B)/accuracy.csv --svg $(B)/accuracy.svg --packing $(PACKING) --cost $(B)/accuracy_cost.svg \
 		$(REFERENCES)
 
+# ---- the figures of [GC]
+FIGURES := $(B)/bench/figures/figures
+FIGURES_OBJ := $(patsubst $(S)/%.c,$(B)/%.o,$(sort $(wildcard $(S)/bench/figures/*.c)))
+$(FIGURES): $(FIGURES_OBJ) $(B)/bench/line_chart.o $(B)/bench/reference_table.o $(STATIC)
+	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
+figures: $(FIGURES) ## the figures of Gonzalez and Cuitino (2012) as pictures and data, in build/figures
+	@mkdir -p $(B)/figures
+	@$(FIGURES) $(S)/bench $(B)/figures
+	@if command -v rsvg-convert >/dev/null; then \
+		for f in $(B)/figures/*.svg; do rsvg-convert -o "$${f%.svg}.png" "$$f" || exit 1; done; \
+	else echo 'no rsvg-convert: no PNG pictures, only SVG'; fi
+
 # ---- tests
 TEST_SRC := $(sort $(wildcard $(S)/tests/test_*.c))
 TEST_COMMON := $(patsubst $(S)/%.c,$(B)/%.o,$(filter-out $(TEST_SRC),$(sort $(wildcard $(S)/tests/*.c))))
@@ -118,7 +130,7 @@ $(B)/tests/%.o: $(S)/tests/%.c
 $(B)/tests/%: $(B)/tests/%.o $(TEST_COMMON) $(BENCH_COMMON) $(STATIC)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK_LIBS) $(LIBS)
 
-check: lib packing $(B)/bench/accuracy $(TESTS) ## build and run every test (needs what `make setup` installs)
+check: lib packing $(B)/bench/accuracy $(FIGURES) $(TESTS) ## build and run every test (needs what `make setup` installs)
 	@S='$(abspath $(S))' B='$(abspath $(B))' CC='$(CC)' CXX='$(CXX)' MAKE='$(MAKE)' EMULATOR='$(EMULATOR)' \
 		PKG_CONFIG='$(PKG_CONFIG)' VERSION='$(VERSION)' sh $(S)/tests/run $(abspath $(TESTS) $(TEST_SCRIPTS))
 
@@ -156,4 +168,4 @@ dist: ## make a source archive, the same bytes every time
 clean: ## remove everything that was built
 	rm -rf $(B)
 
--include $(wildcard $(B)/lib/*.d $(B)/bench/*.d $(B)/tests/*.d)
+-include $(wildcard $(B)/lib/*.d $(B)/bench/*.d $(B)/bench/figures/*.d $(B)/tests/*.d)
