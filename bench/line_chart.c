@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEFT = 14, TICKS = 52, HEAD = 34, LEGEND_ROW = 18, LEGEND_WIDTH = 170, GAP_X = 20, NAME_ROW = 22, FOOT = 44 };
+enum { LEFT = 14, TICKS = 52, HEAD = 34, LEGEND_ROW = 18, LEGEND_WIDTH = 170, LETTER = 8, GAP_X = 20, NAME_ROW = 22, FOOT = 44 };
 
 /* ---- filling */
 
@@ -192,7 +192,8 @@ static void draw_legend(FILE *out, const line_chart *c, int in_row)
 void line_chart_write_svg(FILE *out, const line_chart *c)
 {
     int columns = c->panels < c->columns ? c->panels : c->columns, rows = (c->panels + c->columns - 1) / c->columns;
-    int width = 2 * LEFT + columns * (c->width + TICKS + GAP_X), in_row = (width - LEFT) / LEGEND_WIDTH;
+    int panels = columns * (c->width + TICKS + GAP_X), title = (int)strlen(c->title) * LETTER;
+    int width = 2 * LEFT + (panels > title ? panels : title), in_row = (width - LEFT) / LEGEND_WIDTH;
     int top = HEAD + (c->legends + in_row - 1) / in_row * LEGEND_ROW, height = top + rows * (NAME_ROW + c->height + FOOT);
     fprintf(out,
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\""
