@@ -112,6 +112,6 @@ void nlc_add_self(const nlc_block *b, nlc_network *n, nlc_response response, con
             continue;
         }
         n->side[e] -= moment / 6 + U * p * self.displacement + wide / 15;
-        n->own[e] = own_slope(n, e, particle, self, b->tilt[d], moment / 6, wide / 15);
+        if (response == NLC_OF_STATE) n->own[e] = own_slope(n, e, particle, self, b->tilt[d], moment / 6, wide / 15);
     }
 }

@@ -162,7 +162,7 @@ static bool advance(nlc_iteration *q, progress *s, nlc_outcome *out)
 static bool refresh(nlc_iteration *q, progress *s, nlc_outcome *out)
 {
     if (q->n->swept) q->n->swept = false; /* this once */
-    else if (!sweep(q, NLC_OF_FORCES, q->n->force, q->n->current, out)) return false;
+    else if (!sweep(q, NLC_OF_STATE, q->n->force, q->n->current, out)) return false;
     s->exact = true;
     s->since = 0;
     nlc_evaluate(q);

@@ -105,8 +105,9 @@ void nlc_apply_settings(nlc_network *network, const nlc_settings *settings, cons
 
 /* What a sweep is asked for: in a model whose displacements are proportional to the forces all the same. */
 typedef enum nlc_response {
-    NLC_OF_FORCES,  /* displacements; sets what NLC_OF_CHANGES needs to know of the state */
-    NLC_OF_CHANGES, /* change of the displacements by small changes of the forces, at the forces of the last NLC_OF_FORCES */
+    NLC_OF_FORCES,  /* displacements */
+    NLC_OF_STATE,   /* displacements; sets what NLC_OF_CHANGES needs to know of the state, for which network->floor has to be set */
+    NLC_OF_CHANGES, /* change of the displacements by small changes of the forces, at the forces of the last NLC_OF_STATE */
     NLC_OF_ENERGY   /* minus half the product with the forces is the energy that the coupling adds */
 } nlc_response;
 

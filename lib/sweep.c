@@ -136,7 +136,7 @@ nlc_status nlc_displace(nlc_network *network, nlc_response response, const doubl
     const nlc_shape shape = network->settings.model->shape;
     *culprit = -1;
     if (network->settings.model->within && !in_range(network, force, normal)) return NLC_ERROR_RANGE;
-    if (response == NLC_OF_FORCES && (shape == NLC_SHAPE_MOMENTS || shape == NLC_SHAPE_RADIUS)) nlc_set_approach(network, force);
+    if (response <= NLC_OF_STATE && (shape == NLC_SHAPE_MOMENTS || shape == NLC_SHAPE_RADIUS)) nlc_set_approach(network, force);
     for (int64_t k = 0; k < network->particle_count; k++)
         if (!nlc_displace_particle(network, response, force, normal, k)) {
             *culprit = nlc_find_coincident(network, normal, k);

@@ -41,7 +41,7 @@ static nlc_status set_state(nlc_network *n, const double *force, const double *n
         n->floor[c] = 0; /* contacts without force have no part in the tangent */
     }
     info->sweeps++;
-    return nlc_displace(n, NLC_OF_FORCES, n->spare[0], normal, &info->culprit);
+    return nlc_displace(n, NLC_OF_STATE, n->spare[0], normal, &info->culprit);
 }
 
 /* out = D^1/2 C D^1/2 in; false if the sweep failed */

@@ -33,7 +33,7 @@ static double weakened_map(nlc_iteration *q, const double *x, double *y, nlc_out
     }
     if (n->settings.model->self) { /* the bound wants to know what contacts do to themselves */
         out->info.sweeps++;
-        out->status = nlc_displace(n, NLC_OF_FORCES, n->force, q->normal, &out->info.culprit);
+        out->status = nlc_displace(n, NLC_OF_STATE, n->force, q->normal, &out->info.culprit);
         if (out->status != NLC_OK) return 0;
     }
     nlc_bound_balance(n, q->normal, NLC_BALANCE_PASSES, 0, &bound);

@@ -510,6 +510,32 @@ START_TEST(small_overlaps)
 }
 END_TEST
 
+/* The sphere less point forces on it: each contact's own displacement and the wider gap, to (a/R)^2 of D of the others. */
+START_TEST(sphere_is_point_forces_and_their_own_displacement)
+{
+    scene s, t;
+    equal_spheres(&s, 0, 0.25);
+    equal_spheres(&t, 0, 0.25);
+    t.options.model = NLC_MODEL_POINT_FORCE;
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    ck_assert_int_eq(scene_build(&t), NLC_OK);
+    double *v = array(2 * s.contacts), *w = array(2 * s.contacts);
+    for (double size = 1e-2; size > 1e-9; size /= 1e3) {
+        for (int64_t c = 0; c < s.contacts; c++) s.force[c] = size * (double)(1 + c % 3);
+        ck_assert_int_eq(nlc_sweep(s.network, v, s.force, 0, s.normal, 0), NLC_OK);
+        ck_assert_int_eq(nlc_sweep(t.network, w, s.force, 0, s.normal, 0), NLC_OK);
+        for (int64_t e = 0; e < 2 * s.contacts; e++) {
+            const int64_t c = e / 2, k = e % 2 ? s.j[c] : s.i[c];
+            if (k >= s.particles) continue;
+            const double P = s.force[c], U = 1.25 / (4 * 3.14159265358979323846 * 1e-3 * 7e10), a = radius_of(&s, c, P) / 1e-3;
+            nlc_assert_abs((v[e] - w[e] + a * a * a * a / 15 * 1e-3) / (U * P), -nlc_sphere_self(a, 0.25, 1), 40 * a * a + 3e-12);
+        }
+    }
+    free(v), free(w);
+    scene_free(&s), scene_free(&t);
+}
+END_TEST
+
 /* --------------------------------------------------------------------------------------------- what must change nothing -- */
 
 static void load(scene *s, double factor)
@@ -603,6 +629,60 @@ START_TEST(clusters_do_not_know_of_each_other)
 END_TEST
 
 /* ---------------------------------------------------------------------------------------------------- bad weather -- */
+
+/* All bytes of the memory the same: bits of a NaN, of 1e300 and so on, before the network is built in it. */
+static void build_in(scene *s, int byte)
+{
+    const nlc_particles view = scene_view(s);
+    const size_t size = nlc_network_size(&view, s->contacts, &s->options);
+    scene_build(s);
+    memset(s->memory, byte, size);
+    ck_assert_int_eq(nlc_network_init(&s->network, s->memory, size, &view, s->i, s->j, s->contacts, &s->options, 0), NLC_OK);
+}
+
+/* Everything there is, from a new network each time: results go into out[6 contacts + particles + 1]. */
+static void all_functions(scene *s, int byte, double *out)
+{
+    const int64_t n = s->contacts;
+    double *e = out + 6 * n, *force = copy(s->force, n);
+    build_in(s, byte);
+    memcpy(s->force, force, (size_t)n * sizeof *force);
+    for (int64_t k = 0; k < 6 * n + s->particles + 1; k++) out[k] = 0;
+    nlc_sweep(s->network, out, force, s->overlap, s->normal, 0);
+    build_in(s, byte);
+    nlc_energy(s->network, e, force, s->overlap, s->normal, 0);
+    build_in(s, byte);
+    nlc_tangent_inverse(s->network, out + 2 * n, s->overlap, force, s->normal, 0);
+    build_in(s, byte);
+    nlc_tangent(s->network, out + 3 * n, s->overlap, force, s->normal, 0);
+    build_in(s, byte);
+    nlc_tangent_bound(s->network, e + 1, force, s->normal, 0);
+    build_in(s, byte);
+    nlc_solve(s->network, out + 4 * n, out + 5 * n, s->overlap, s->normal, 0);
+    memcpy(s->force, force, (size_t)n * sizeof *force);
+    free(force);
+}
+
+START_TEST(memory_need_not_be_clean)
+{
+    for (int which = 0; which < 3 * SCENES; which++) {
+        scene s;
+        make(&s, _i, which % SCENES, 0);
+        if (which >= SCENES) s.options.method = NLC_METHOD_FIXED_POINT;
+        if (which >= 2 * SCENES) load(&s, 8), s.options.method = NLC_METHOD_AUTOMATIC;
+        ck_assert_int_ge(scene_solve(&s, 0), NLC_OK);
+        const int64_t size = 6 * s.contacts + s.particles + 1;
+        double *a = array(size), *b = array(size);
+        all_functions(&s, 0, a);
+        for (int byte = 0; byte < 3; byte++) {
+            nlc_assert_quiet(all_functions(&s, (int[]){0xff, 0x7e, 0x01}[byte], b));
+            for (int64_t k = 0; k < size; k++) nlc_assert_same(b[k], a[k]);
+        }
+        free(a), free(b);
+        scene_free(&s);
+    }
+}
+END_TEST
 
 /* Finite forces, or an error, and no trap. */
 static nlc_status survive(scene *s)
@@ -732,10 +812,12 @@ int main(void)
     tcase_add_loop_test(tc, pairs_on_their_own, 0, variants);
     tcase_add_loop_test(tc, close_contacts_are_on_a_half_space, 0, variants);
     tcase_add_loop_test(tc, small_overlaps, 0, variants);
+    tcase_add_test(tc, sphere_is_point_forces_and_their_own_displacement);
     tcase_add_loop_test(tc, order_of_contacts_changes_last_bits_only, 0, variants);
     tcase_add_loop_test(tc, units, 0, variants);
     tcase_add_loop_test(tc, methods_agree, 0, variants);
     tcase_add_loop_test(tc, clusters_do_not_know_of_each_other, 0, variants);
+    tcase_add_loop_test(tc, memory_need_not_be_clean, 0, variants);
     tcase_add_loop_test(tc, nothing_to_solve_for, 0, variants);
     tcase_add_loop_test(tc, beyond_the_end, 0, variants);
     tcase_add_loop_test(tc, many_contacts_on_one_particle, 0, variants);
