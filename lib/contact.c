@@ -3,6 +3,7 @@
 #include "contact.h"
 
 #define LARGEST_TILT 1e6
+#define STEEPEST 1e100 /* in units of the iteration, for absurd numbers: its square is in range */
 
 void nlc_set_approach(nlc_network *n, const double *force)
 {
@@ -81,16 +82,19 @@ static double quartic(const nlc_network *n, int64_t e, int64_t particle, double 
  * Change of a side's displacement by its own force; moment and wide are parts of the displacement.  As a slope may be no lower than
  * its floor, no contact counts as smaller than the floor says.
  */
-static double own_slope(const nlc_network *n, int64_t e, int64_t particle, nlc_self self, double tilt, double moment, double wide)
+static double own_slope(const nlc_network *n, int64_t e, int64_t particle, double force, nlc_self self, double tilt, double moment,
+                        double wide)
 {
     const int64_t c = e >> 1;
     const double k = nlc_join(n->stiffness[c], n->stiffness_unit) + 1e-150, least = n->floor[c] / k, root = sqrt(n->approach[c]);
-    const double x = root > least ? root : least, p = k * x * x * x + 1e-200;
+    const double x = root > least ? root : least, alone = k * x * x * x + 1e-200;
+    const double p = alone > force ? alone : force; /* a circle of the largest size has less than its force */
     if (root < least) {
         const double t2 = nlc_effective(n, e, n->radius[particle]) * (x * x / nlc_length_of(n, particle));
         self = n->settings.model->self(nlc_kernel_of(n, particle), t2 < 1 ? t2 : 1, tilt);
     }
-    return -nlc_scale_of(n, particle) * self.slope - (moment * (2. / 3) + wide * (4. / 3)) / p;
+    const double slope = nlc_scale_of(n, particle) * self.slope + (moment * (2. / 3) + wide * (4. / 3)) / p;
+    return slope > STEEPEST ? -STEEPEST : slope < -STEEPEST ? STEEPEST : -slope;
 }
 
 void nlc_add_self(const nlc_block *b, nlc_network *n, nlc_response response, const double *force, const double *normal,
@@ -112,6 +116,6 @@ void nlc_add_self(const nlc_block *b, nlc_network *n, nlc_response response, con
             continue;
         }
         n->side[e] -= moment / 6 + U * p * self.displacement + wide / 15;
-        if (response == NLC_OF_STATE) n->own[e] = own_slope(n, e, particle, self, b->tilt[d], moment / 6, wide / 15);
+        if (response == NLC_OF_STATE) n->own[e] = own_slope(n, e, particle, p, self, b->tilt[d], moment / 6, wide / 15);
     }
 }

@@ -29,11 +29,11 @@ static inline double nlc_effective(const nlc_network *n, int64_t e, double R)
 /* (a/R)^2 of a side, R being the particle's radius. */
 double nlc_circle2(const nlc_network *network, int64_t side, int64_t particle);
 
-/* A particle's radius in the unit of overlaps, not 0. */
+/* A particle's radius in the unit of overlaps, not 0 and not infinite. */
 static inline double nlc_length_of(const nlc_network *n, int64_t particle)
 {
     const double r = nlc_join(n->radius[particle], n->length_unit);
-    return r > 1e-290 ? r : 1e-290;
+    return r > 1e-290 ? r < 1e290 ? r : 1e290 : 1e-290;
 }
 
 /*

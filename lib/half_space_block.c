@@ -20,7 +20,7 @@ static bool row(nlc_block *a, int c, const nlc_block *b, const nlc_kernel *kerne
         /* r = N_c - N_d + what the points are off: no digits are lost where they are close */
         const double dx = x - b->x[d], dy = y - b->y[d], dz = z - b->z[d], q = a->shape[c], p = b->shape[d];
         const double rx = dx + (q * x - p * b->x[d]), ry = dy + (q * y - p * b->y[d]), rz = dz + (q * z - p * b->z[d]);
-        const double h2 = rx * rx + ry * ry + rz * rz, i = 1 / sqrt(h2 + DBL_MIN);
+        const double h2 = rx * rx + ry * ry + rz * rz, i = 1 / sqrt(h2 + (same && d == c ? 1 : DBL_MIN)); /* not looked at: 1 */
         const double cosine = 1 - 0.5 * (dx * dx + dy * dy + dz * dz);
         const double from = i * (rx * b->x[d] + ry * b->y[d] + rz * b->z[d]), to = i * (rx * x + ry * y + rz * z);
         const double least = 1 - from, below = 0.5 * (least + STEEPEST + fabs(least - STEEPEST)); /* the larger of the two */

@@ -22,7 +22,8 @@ static bool row(nlc_block *a, int c, const nlc_block *b, double poisson, bool sa
     double part[NLC_BLOCK], sum = 0, nearest = 4;
     for (int d = 0; d < b->count; d++) {
         const double dx = x - b->x[d], dy = y - b->y[d], dz = z - b->z[d], t = dx * dx + dy * dy + dz * dz;
-        part[d] = nlc_love_kernel(0.5 * sqrt(t + DBL_MIN), b->shape[d], poisson) * b->force[d];
+        const double apart = t + (same && d == c ? 1 : DBL_MIN); /* its own place is not looked at: 1 */
+        part[d] = nlc_love_kernel(0.5 * sqrt(apart), b->shape[d], poisson) * b->force[d];
     }
     for (int d = 0; d < b->count; d++) {
         if (same && d == c) continue;

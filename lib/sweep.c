@@ -128,6 +128,7 @@ static bool in_range(const nlc_network *n, const double *force, const double *no
 {
     int e = nlc_exponent_above(nlc_largest_magnitude(force, n->contact_count)) + n->coupling_exponent +
             nlc_exponent_above(n->unit) + nlc_exponent_above((double)n->contact_count) + 4;
+    if (n->settings.model->shape == NLC_SHAPE_PLACE) e += 10; /* a point that is nearly straight above another */
     return e + 512 <= 1020 || e + closeness(n, normal) <= 1020;
 }
 

@@ -696,6 +696,45 @@ static nlc_status survive(scene *s)
     return status;
 }
 
+START_TEST(absurd_numbers_are_survived)
+{
+    static const double overlap[] = {1e-300, 1e-150, 1e-20, 1e-2, 1, 1e3, 1e20, 1e100}, radius[] = {1e-150, 1e-6, 1, 1e10, 1e150};
+    for (int x = 0; x < 8; x++)
+        for (int a = 0; a < 5; a++)
+            for (int b = 0; b < 5; b++)
+                for (int stiff = 0; stiff < 3; stiff++) {
+                    scene s;
+                    scene_init(&s);
+                    choose(&s, _i);
+                    double k[4], out[4] = {0}, w[8] = {0}, K[4];
+                    for (int c = 0; c < 4; c++) k[c] = stiff == 1 ? 1e-200 : 1e120;
+                    if (stiff) s.options.stiffness = k;
+                    const int32_t soft = scene_material(&s, 1, 0.2), hard = scene_material(&s, 1e30, 0.5);
+                    const int32_t rigid = scene_material(&s, INFINITY, 0);
+                    scene_particle(&s, radius[a], soft), scene_particle(&s, radius[b], hard), scene_particle(&s, radius[b], rigid);
+                    const int32_t wall = 3 + scene_wall(&s, soft);
+                    scene_contact(&s, 0, 1, overlap[x], 1, 0, 0);
+                    scene_contact(&s, 2, 0, overlap[7 - x], -1, 1, 0);
+                    scene_contact(&s, 1, 0, overlap[x], 0, 1, 1);
+                    scene_contact(&s, wall, 2, -overlap[x], 0, 1, 1);
+                    survive(&s);
+                    if (!s.network) continue;
+                    for (int c = 0; c < 4; c++) s.force[c] = overlap[(x + c) % 8];
+                    nlc_assert_quiet(nlc_sweep(s.network, w, s.force, s.overlap, s.normal, 0));
+                    nlc_assert_quiet(nlc_energy(s.network, out, s.force, s.overlap, s.normal, 0));
+                    nlc_assert_quiet(nlc_tangent(s.network, out, s.overlap, s.force, s.normal, 0));
+                    nlc_assert_quiet(nlc_tangent_inverse(s.network, out, s.overlap, s.force, s.normal, 0));
+                    nlc_assert_quiet(nlc_tangent_bound(s.network, K, s.force, s.normal, 0));
+                    for (int c = 0; c < 8; c++) ck_assert(isfinite(w[c]));
+                    for (int c = 0; c < 4; c++) s.force[c] = c % 2 ? -1e300 : 1e280;
+                    nlc_assert_quiet(nlc_sweep(s.network, w, s.force, s.overlap, s.normal, 0));
+                    for (int c = 0; c < 8; c++) ck_assert(isfinite(w[c]));
+                    for (int c = 0; c < 4; c++) ck_assert(isfinite(out[c]));
+                    scene_free(&s);
+                }
+}
+END_TEST
+
 /* No contact, all of them open, one that is not a number, two in one place. */
 START_TEST(nothing_to_solve_for)
 {
@@ -818,6 +857,7 @@ int main(void)
     tcase_add_loop_test(tc, methods_agree, 0, variants);
     tcase_add_loop_test(tc, clusters_do_not_know_of_each_other, 0, variants);
     tcase_add_loop_test(tc, memory_need_not_be_clean, 0, variants);
+    tcase_add_loop_test(tc, absurd_numbers_are_survived, 0, variants);
     tcase_add_loop_test(tc, nothing_to_solve_for, 0, variants);
     tcase_add_loop_test(tc, beyond_the_end, 0, variants);
     tcase_add_loop_test(tc, many_contacts_on_one_particle, 0, variants);
