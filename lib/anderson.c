@@ -8,17 +8,31 @@ static float narrowed(double v)
     return (float)(v > 1e30 ? 1e30 : v < -1e30 ? -1e30 : v);
 }
 
+/*
+ * Sums over the two sides of a contact first: which one is called i changes no bit.  (Where there is one number a contact, over
+ * two contacts.)
+ */
+static double dot_narrow(const float *a, const float *b, int64_t length)
+{
+    double s = 0;
+    for (int64_t c = 0; c + 1 < length; c += 2) s += (double)a[c] * (double)b[c] + (double)a[c + 1] * (double)b[c + 1];
+    return length % 2 ? s + (double)a[length - 1] * (double)b[length - 1] : s;
+}
+
+static double dot_mixed(const float *a, const double *b, int64_t length)
+{
+    double s = 0;
+    for (int64_t c = 0; c + 1 < length; c += 2) s += (double)a[c] * b[c] + (double)a[c + 1] * b[c + 1];
+    return length % 2 ? s + (double)a[length - 1] * b[length - 1] : s;
+}
+
 /* Least squares r ~ sum s_l df_l by normal equations, columns of unit length, with a small diagonal against dependence. */
 static void least_squares(const nlc_anderson *h, const double *r, double s[NLC_COLUMNS])
 {
     double A[NLC_COLUMNS][NLC_COLUMNS], L[NLC_COLUMNS][NLC_COLUMNS] = {{0}}, unit[NLC_COLUMNS];
     for (int i = 0; i < h->count; i++) {
-        s[i] = 0;
-        for (int64_t c = 0; c < h->length; c++) s[i] += (double)h->df[i][c] * r[c];
-        for (int j = 0; j <= i; j++) {
-            A[i][j] = 0;
-            for (int64_t c = 0; c < h->length; c++) A[i][j] += (double)h->df[i][c] * (double)h->df[j][c];
-        }
+        s[i] = dot_mixed(h->df[i], r, h->length);
+        for (int j = 0; j <= i; j++) A[i][j] = dot_narrow(h->df[i], h->df[j], h->length);
         unit[i] = A[i][i] > 1e-280 ? 1 / sqrt(A[i][i]) : 0;
     }
     for (int i = 0; i < h->count; i++) {
@@ -95,11 +109,7 @@ double nlc_anderson_amplification(const nlc_anderson *h)
 {
     double most = 1;
     for (int l = 0; l < h->count; l++) {
-        double x = 0, f = 0;
-        for (int64_t c = 0; c < h->length; c++) {
-            x += (double)h->dx[l][c] * (double)h->dx[l][c];
-            f += (double)h->df[l][c] * (double)h->df[l][c];
-        }
+        const double x = dot_narrow(h->dx[l], h->dx[l], h->length), f = dot_narrow(h->df[l], h->df[l], h->length);
         const double ratio = sqrt(nlc_ratio(x, f));
         most = ratio > most ? ratio : most;
     }

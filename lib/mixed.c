@@ -36,7 +36,7 @@ static double plus(double x)
 /* Overlap plus displacement of x. */
 static double overlap_at(const nlc_iteration *q, const vectors *v, int64_t c)
 {
-    const double y = v->sides ? q->overlap[c] * q->load + v->x[2 * c] + v->x[2 * c + 1] : v->x[c];
+    const double y = v->sides ? q->overlap[c] * q->load + (v->x[2 * c] + v->x[2 * c + 1]) : v->x[c];
     return y < NLC_FARTHEST ? y : NLC_FARTHEST;
 }
 
@@ -66,8 +66,9 @@ static double evaluate(nlc_iteration *q, vectors *v, double *change, nlc_outcome
     for (int64_t k = 0; k < v->length; k++) {
         v->y[k] = (v->sides ? n->side[k] : nlc_scaled_overlap(q, k)) - v->x[k];
         if (!v->sides && v->x[k] <= 0 && v->x[k] + v->y[k] <= 0) v->y[k] = 0; /* how far it is open makes no difference */
-        norm += v->y[k] * v->y[k];
     }
+    for (int64_t k = 0; k + 1 < v->length; k += 2) norm += v->y[k] * v->y[k] + v->y[k + 1] * v->y[k + 1]; /* as in anderson.c */
+    if (v->length % 2) norm += v->y[v->length - 1] * v->y[v->length - 1];
     return norm;
 }
 

@@ -25,8 +25,8 @@ void nlc_split_sides(const nlc_network *n, double *side)
 {
     for (int64_t c = 0; c < n->contact_count; c++) {
         const double a = yield_of(n, n->i[c]), b = yield_of(n, n->j[c]), larger = a > b ? a : b;
-        const double share = larger > 0 ? (a / larger) / (a / larger + b / larger) : 0;
-        side[2 * c] = share * n->current[c];
-        side[2 * c + 1] = b > 0 ? (1 - share) * n->current[c] : 0;
+        const double r = a / (larger + 1e-300), s = b / (larger + 1e-300), sum = r + s + 1e-300;
+        side[2 * c] = r / sum * n->current[c];
+        side[2 * c + 1] = s / sum * n->current[c];
     }
 }
