@@ -5,6 +5,9 @@
 /* Part of the residual's energy norm by which the error is at least estimated: see nlc_energy_residual. */
 #define ENERGY 0.33
 
+/* What is left of an iterate where all is open, in units of the largest force: it moves nothing, and has nothing to be compared with. */
+#define NOTHING 1e-16
+
 void nlc_force_scales(nlc_iteration *q, bool iterate_too)
 {
     nlc_network *n = q->n;
@@ -25,7 +28,7 @@ double nlc_relative_size(const nlc_iteration *q, const double *values, int64_t *
     *where = -1;
     for (int64_t c = 0; c < n->contact_count; c++) {
         const double a = n->largest[n->i[c]], b = n->largest[n->j[c]], scale = a > b ? a : b, size = fabs(values[c]);
-        if (size <= worst * scale) continue;
+        if (size <= worst * scale || (scale <= 0 && size <= NOTHING * q->largest_force)) continue;
         worst = nlc_ratio(size, scale);
         *where = c;
     }

@@ -617,6 +617,29 @@ START_TEST(units)
 }
 END_TEST
 
+/* From nothing, from the solution, from that of another load and from nonsense: the same to two tolerances. */
+START_TEST(start_does_not_matter)
+{
+    for (int which = 0; which < SCENES; which++) {
+        scene s;
+        nlc_info info;
+        make(&s, _i, which, 1e-11);
+        solve(&s);
+        double *force = copy(s.force, s.contacts);
+        rng g = {12};
+        for (int start = 0; start < 6; start++) {
+            if (start == 1) load(&s, 0.9), solve(&s), load(&s, 1 / 0.9);
+            const double top = size_of(s.overlap, s.contacts);
+            for (int64_t c = 0; c < s.contacts && start > 1; c++) s.nonlocal[c] = top * rng_uniform(&g, -2, 2);
+            ck_assert_int_eq(scene_solve(&s, &info) & ~NLC_WARNING_CLOSE, NLC_OK);
+            ck_assert(difference(&s, force, 1) <= 2e-11);
+        }
+        free(force);
+        scene_free(&s);
+    }
+}
+END_TEST
+
 /* Algorithm 1 and the default find the same. */
 START_TEST(methods_agree)
 {
@@ -884,6 +907,7 @@ int main(void)
     tcase_add_loop_test(tc, exchange_of_sides_changes_no_bit, 0, variants);
     tcase_add_loop_test(tc, order_of_contacts_changes_last_bits_only, 0, variants);
     tcase_add_loop_test(tc, units, 0, variants);
+    tcase_add_loop_test(tc, start_does_not_matter, 0, variants);
     tcase_add_loop_test(tc, methods_agree, 0, variants);
     tcase_add_loop_test(tc, clusters_do_not_know_of_each_other, 0, variants);
     tcase_add_loop_test(tc, memory_need_not_be_clean, 0, variants);
