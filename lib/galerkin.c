@@ -43,6 +43,7 @@ typedef struct progress {
     int critical;       /* sweeps in a row with a Ritz value near 1 */
     bool looked, all;
     int64_t begun;   /* sweeps before this solve */
+    bool settled;    /* all directions' images are those of states near the solution: Ritz values say something of lambda */
     bool exact;      /* the displacements are those of the iterate, not of the last state and what changed since then */
     double refresh;  /* residual, relative to the largest force, at which they are computed anew */
     int since;       /* steps since they were */
@@ -144,7 +145,7 @@ static bool advance(nlc_iteration *q, progress *s, nlc_outcome *out)
     nlc_stiffness_products(q);
     nlc_choose_step(q);
     if (before > 0.05 * q->largest_force) shorten(q);
-    const bool near = before < NEAR * q->largest_force;
+    const bool near = s->settled && before < NEAR * q->largest_force;
     if (near && q->theta > out->info.lambda_lower) out->info.lambda_lower = q->theta;
     const bool critical = q->theta >= 1 || (near && q->theta > 1 - NLC_MARGIN + 0.001);
     s->critical = out->info.sweeps - s->begun > 4 && critical ? s->critical + 1 : 0;
@@ -169,6 +170,10 @@ static bool refresh(nlc_iteration *q, progress *s, nlc_outcome *out)
     const double r = nlc_ratio(q->largest_residual, q->largest_force), enough = LINEAR_ENOUGH * q->n->settings.tolerance;
     s->refresh = LINEAR * (r < 1 ? r * sqrt(r) : 1);
     if (s->refresh < enough) s->refresh = enough;
+    if (r < NEAR && !s->settled) {
+        s->settled = true;
+        q->directions = 1;
+    }
     return true;
 }
 
@@ -198,6 +203,7 @@ static void solve(nlc_network *n, const double *overlap, const double *normal, d
 {
     nlc_iteration q;
     progress s = {.ratio = 1e10, .best = INFINITY, .where = -1, .begun = out->info.sweeps};
+    s.settled = nlc_is_linear(n->settings.model->shape);
     nlc_iteration_start(&q, n, overlap, normal, part);
     const verdict v = iterate(&q, &s, out);
     if (out->status < 0) return;

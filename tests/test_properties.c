@@ -633,6 +633,7 @@ START_TEST(start_does_not_matter)
             for (int64_t c = 0; c < s.contacts && start > 1; c++) s.nonlocal[c] = top * rng_uniform(&g, -2, 2);
             ck_assert_int_eq(scene_solve(&s, &info) & ~NLC_WARNING_CLOSE, NLC_OK);
             ck_assert(difference(&s, force, 1) <= 2e-11);
+            ck_assert(info.lambda_lower <= info.lambda_upper);
         }
         free(force);
         scene_free(&s);
