@@ -195,17 +195,27 @@ static double lanczos(nlc_network *n, const double *normal, int64_t k)
     return upper;
 }
 
+/* In a model without a potential the coefficients of Case I decide, here too: its own are not symmetric. */
+static double estimate(nlc_network *n, const double *normal, int64_t k)
+{
+    const nlc_model *model = n->settings.model;
+    if (!model->potential) n->settings.model = &nlc_half_space_undeformed;
+    const double upper = lanczos(n, normal, k);
+    n->settings.model = model;
+    return upper;
+}
+
 bool nlc_block_is_below(nlc_network *n, const double *normal, int64_t particle, double beta)
 {
     double B[NLC_BLOCK * NLC_BLOCK];
     const int rows = dense(B, n, normal, particle);
-    return rows < 0 ? lanczos(n, normal, particle) <= beta : nlc_is_below(B, rows, beta);
+    return rows < 0 ? estimate(n, normal, particle) <= beta : nlc_is_below(B, rows, beta);
 }
 
 double nlc_block_eigenvalue(nlc_network *n, const double *normal, int64_t particle)
 {
     double B[NLC_BLOCK * NLC_BLOCK], work[4 * NLC_BLOCK];
     const int rows = dense(B, n, normal, particle);
-    if (rows < 0) return lanczos(n, normal, particle);
+    if (rows < 0) return estimate(n, normal, particle);
     return rows > 0 ? nlc_largest_eigenvalue(B, rows, work) : 0;
 }

@@ -886,6 +886,43 @@ START_TEST(many_contacts_on_one_particle)
 }
 END_TEST
 
+/*
+ * How far a model without an energy is weakened is decided by Case I at the forces found, t lambda = 0.985: with more contacts
+ * than fit in a block, too, where lambda is estimated to 2 % of |1 - lambda|.
+ */
+START_TEST(case_one_decides_how_far_to_weaken)
+{
+    for (int count = 60; count < 70; count += 4) {
+        scene s, t;
+        nlc_info info;
+        many(&s, _i, count, 0.06, 0.45), many(&t, NLC_MODEL_GONZALEZ_CUITINO, count, 0.06, 0.45);
+        const nlc_status status = scene_solve(&s, &info);
+        if (has_energy(&s)) ck_assert_int_ge(status, NLC_OK);
+        else {
+            double *slope = array(count), *u = array(count), *f = array(count), *g = array(count), lambda = 0;
+            ck_assert_int_eq(status, NLC_WARNING_WEAKENED | NLC_WARNING_CLOSE);
+            ck_assert_int_eq(scene_build(&t), NLC_OK);
+            for (int c = 0; c < count; c++) {
+                const double k = (double)scene_stiffness(&s, c);
+                slope[c] = sqrt(1.5 * k * cbrt(s.force[c] / k)), u[c] = 1;
+            }
+            for (int step = 0; step < 3000; step++) { /* powers of D^1/2 C D^1/2 + 40: its lowest eigenvalue is above -40 */
+                for (int c = 0; c < count; c++) f[c] = slope[c] * u[c];
+                displacements(&t, g, f);
+                for (int c = 0; c < count; c++) g[c] *= slope[c];
+                lambda = dot(u, g, count) / dot(u, u, count);
+                for (int c = 0; c < count; c++) g[c] += 40 * u[c];
+                const double size = sqrt(dot(g, g, count));
+                for (int c = 0; c < count; c++) u[c] = g[c] / size;
+            }
+            nlc_assert_rel(info.coupling * lambda, 0.985, count > 64 ? 0.02 : 1e-6);
+            free(slope), free(u), free(f), free(g);
+        }
+        scene_free(&s), scene_free(&t);
+    }
+}
+END_TEST
+
 /* ---------------------------------------------------------------------------------------------------------------------- */
 
 int main(void)
@@ -916,6 +953,7 @@ int main(void)
     tcase_add_loop_test(tc, nothing_to_solve_for, 0, variants);
     tcase_add_loop_test(tc, beyond_the_end, 0, variants);
     tcase_add_loop_test(tc, many_contacts_on_one_particle, 0, variants);
+    tcase_add_loop_test(tc, case_one_decides_how_far_to_weaken, 0, variants);
     suite_add_tcase(suite, tc);
     return run_suite(suite);
 }
