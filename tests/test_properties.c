@@ -141,6 +141,12 @@ static double difference(const scene *s, const double *force, double factor)
     return worst;
 }
 
+START_TEST(all_models_are_asked)
+{
+    ck_assert_int_gt(models(), NLC_MODEL_POINT_FORCE);
+}
+END_TEST
+
 /* ------------------------------------------------------------------------------------------------------- the equations -- */
 
 /*
@@ -533,6 +539,44 @@ START_TEST(sphere_is_point_forces_and_their_own_displacement)
     }
     free(v), free(w);
     scene_free(&s), scene_free(&t);
+}
+END_TEST
+
+/*
+ * Between unequal spheres, and on a rigid sphere, the traction is tilted by chi, and a rigid one's part of the gap is counted on
+ * the other side.  In the term of t^2 the model has chi = 1: that is the error allowed for.
+ */
+START_TEST(unequal_sides_are_tilted)
+{
+    for (int k = 0; k < 24; k++) {
+        const double R[2] = {1, (double[]){1, 0.3, 4, 20}[k % 4]}, nu[2] = {0.1 + 0.03 * (k % 12), 0.4};
+        const double E[2] = {1e9, k / 4 == 5 ? INFINITY : 1e9 * pow(3, k / 4 - 2)};
+        scene s;
+        scene_init(&s);
+        s.options.model = NLC_MODEL_SPHERE;
+        for (int side = 0; side < 2; side++) scene_particle(&s, R[side], scene_material(&s, E[side], nu[side]));
+        scene_contact(&s, 0, 1, 0, 1, 2, 2);
+        ck_assert_int_eq(scene_build(&s), NLC_OK);
+        const double q[2] = {(1 - nu[0] * nu[0]) / E[0], (1 - nu[1] * nu[1]) / E[1]};
+        for (double force = 1e-5; force > 1e-9; force /= 1e3) {
+            double w[2], gap = 0;
+            const double a = nlc_contact_radius(force, E[0], nu[0], R[0], E[1], nu[1], R[1]);
+            ck_assert_int_eq(nlc_sweep(s.network, w, &force, 0, s.normal, 0), NLC_OK);
+            for (int side = 1; side >= 0; side--) {
+                gap += a * a * a * a / (15 * R[side] * R[side] * R[side]);
+                if (isinf(E[side])) {
+                    nlc_assert_same(w[side], 0);
+                    continue;
+                }
+                const double U = (1 + nu[side]) / (4 * 3.14159265358979323846 * R[side] * E[side]), t = a / R[side];
+                const double chi = q[side] / (q[0] + q[1]) * (1 + R[side] / R[1 - side]);
+                const double S1 = nlc_sphere_self(t, nu[side], chi), allowed = 2 * (1 + chi * chi) * t * t * (1 - log(t));
+                nlc_assert_abs(-(w[side] + gap) / (U * force), S1, allowed + 1e-12 * (1 + chi));
+                gap = 0;
+            }
+        }
+        scene_free(&s);
+    }
 }
 END_TEST
 
@@ -932,6 +976,7 @@ int main(void)
     const int variants = models() + 1;
     tcase_add_checked_fixture(tc, fp_trap, fp_untrap);
     time_limit(tc, 300);
+    tcase_add_test(tc, all_models_are_asked);
     tcase_add_loop_test(tc, forces_obey_the_law, 0, variants);
     tcase_add_loop_test(tc, linear_coupling_is_symmetric, 0, variants);
     tcase_add_loop_test(tc, tangent_is_the_derivative, 0, variants);
@@ -942,6 +987,7 @@ int main(void)
     tcase_add_loop_test(tc, close_contacts_are_on_a_half_space, 0, variants);
     tcase_add_loop_test(tc, small_overlaps, 0, variants);
     tcase_add_test(tc, sphere_is_point_forces_and_their_own_displacement);
+    tcase_add_test(tc, unequal_sides_are_tilted);
     tcase_add_loop_test(tc, exchange_of_sides_changes_no_bit, 0, variants);
     tcase_add_loop_test(tc, order_of_contacts_changes_last_bits_only, 0, variants);
     tcase_add_loop_test(tc, units, 0, variants);
