@@ -43,7 +43,7 @@ typedef struct progress {
     int critical;       /* sweeps in a row with a Ritz value near 1 */
     bool looked, all;
     int64_t begun;   /* sweeps before this solve */
-    bool settled;    /* all directions' images are those of states near the solution: Ritz values say something of lambda */
+    bool settled;    /* images are those of a state near the solution, so that Ritz values say something of lambda */
     bool exact;      /* the displacements are those of the iterate, not of the last state and what changed since then */
     double refresh;  /* residual, relative to the largest force, at which they are computed anew */
     int since;       /* steps since they were */
@@ -170,10 +170,8 @@ static bool refresh(nlc_iteration *q, progress *s, nlc_outcome *out)
     const double r = nlc_ratio(q->largest_residual, q->largest_force), enough = LINEAR_ENOUGH * q->n->settings.tolerance;
     s->refresh = LINEAR * (r < 1 ? r * sqrt(r) : 1);
     if (s->refresh < enough) s->refresh = enough;
-    if (r < NEAR && !s->settled) {
-        s->settled = true;
-        q->directions = 1;
-    }
+    s->settled = r < NEAR || nlc_is_linear(q->n->settings.model->shape);
+    q->directions = 1; /* the images of the others are those of the state before */
     return true;
 }
 
@@ -203,7 +201,6 @@ static void solve(nlc_network *n, const double *overlap, const double *normal, d
 {
     nlc_iteration q;
     progress s = {.ratio = 1e10, .best = INFINITY, .where = -1, .begun = out->info.sweeps};
-    s.settled = nlc_is_linear(n->settings.model->shape);
     nlc_iteration_start(&q, n, overlap, normal, part);
     const verdict v = iterate(&q, &s, out);
     if (out->status < 0) return;

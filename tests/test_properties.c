@@ -685,6 +685,33 @@ START_TEST(start_does_not_matter)
 }
 END_TEST
 
+/* Clusters of all kinds and loads: forces to 1e-8 are those to 3e-13, bounds of lambda are on the right sides of each other. */
+static void any_cluster(scene *s, int v, int seed, double tolerance)
+{
+    rng g = {(uint64_t)seed};
+    scene_init(s);
+    choose(s, v);
+    s->options.tolerance = tolerance;
+    scene_cluster(s, &g, 4 + (int)rng_below(&g, 10), 0.6);
+    load(s, exp(rng_uniform(&g, -1, 2.5)));
+}
+
+START_TEST(any_cluster_to_the_tolerance)
+{
+    for (int seed = 0; seed < 1000; seed++) {
+        scene s, t;
+        nlc_info info;
+        any_cluster(&s, _i, seed, 1e-8), any_cluster(&t, _i, seed, 3e-13);
+        const nlc_status status = scene_solve(&s, &info);
+        ck_assert_int_eq(status & ~NLC_WARNING_CLOSE, NLC_OK);
+        solve(&t);
+        ck_assert(info.lambda_lower <= info.lambda_upper && info.residual <= 1e-8);
+        if (status == NLC_OK) ck_assert(difference(&t, s.force, 1) <= 1.001e-8);
+        scene_free(&s), scene_free(&t);
+    }
+}
+END_TEST
+
 /* Algorithm 1 and the default find the same. */
 START_TEST(methods_agree)
 {
@@ -992,6 +1019,7 @@ int main(void)
     tcase_add_loop_test(tc, order_of_contacts_changes_last_bits_only, 0, variants);
     tcase_add_loop_test(tc, units, 0, variants);
     tcase_add_loop_test(tc, start_does_not_matter, 0, variants);
+    tcase_add_loop_test(tc, any_cluster_to_the_tolerance, 0, variants);
     tcase_add_loop_test(tc, methods_agree, 0, variants);
     tcase_add_loop_test(tc, clusters_do_not_know_of_each_other, 0, variants);
     tcase_add_loop_test(tc, memory_need_not_be_clean, 0, variants);
