@@ -164,7 +164,7 @@ START_TEST(forces_obey_the_law)
         for (int64_t c = 0; c < s.contacts; c++) {
             const double k = (double)scene_stiffness(&s, c), x = fmax(s.overlap[c] + g[c], 0);
             nlc_assert_abs(k * x * sqrt(x), s.force[c], 5e-12 * scale[c]);
-            if (s.force[c] > 0) nlc_assert_abs(g[c], s.nonlocal[c], 1e-11 * size_of(s.overlap, s.contacts));
+            nlc_assert_abs(g[c], s.nonlocal[c], 1e-11 * size_of(s.overlap, s.contacts));
         }
         ck_assert_int_eq(nlc_assemble(s.network, F, 0, wall, s.force, s.normal, 0), NLC_OK);
         for (int64_t k = 0; k < 3 * s.particles; k++) sum[k % 3] += F[k];
@@ -389,7 +389,8 @@ static void equal_spheres(scene *s, int which, double nu)
     for (int k = 0; k < 6; k++) {
         const bool pair = k > 0 && which == 0;
         const double shift = which == 0 ? 0.2 * k : 0;
-        scene_contact(s, centre, pair ? k : wall, 2e-5 + (which == 0 ? 3e-6 * k : 8e-6 * (k / 2)), v[k][0] + shift, v[k][1], v[k][2] + shift / 2);
+        scene_contact(s, centre, pair ? k : wall, 2e-5 + (which == 0 ? 3e-6 * k : 8e-6 * (k / 2)), v[k][0] + shift, v[k][1],
+                      v[k][2] + shift / 2);
         if (!pair) continue;
         scene_contact(s, k, wall, 1e-5 + 2e-6 * k, 1, 0.3, -1);
         scene_contact(s, k, wall, 2e-5, -0.1, 0.9, 0.8);
@@ -432,7 +433,7 @@ END_TEST
 
 /* ------------------------------------------------------------------------------------------------------------- limits -- */
 
-/* A pair on its own: Hertz, or where its own force counts [the sphere's] own approach. */
+/* A pair on its own: Hertz, or in NLC_MODEL_SPHERE the approach with what its own force adds. */
 START_TEST(pairs_on_their_own)
 {
     for (int wall = 0; wall < 2; wall++) {
@@ -505,7 +506,8 @@ START_TEST(small_overlaps)
     for (int k = 0; k < 5; k++) {
         const double nu = 0.1 * k + 0.05, theta = 1.3;
         double before = INFINITY;
-        const double point = _i >= NLC_MODEL_SPHERE && _i < models() ? -nlc_sphere_green(theta, nu) : displacement_at(NLC_MODEL_GONZALEZ_CUITINO, theta, nu, 1);
+        const bool sphere = _i == NLC_MODEL_SPHERE || _i == NLC_MODEL_POINT_FORCE;
+        const double point = sphere ? -nlc_sphere_green(theta, nu) : displacement_at(NLC_MODEL_GONZALEZ_CUITINO, theta, nu, 1);
         for (double force = 1e-4; force > 1e-12 && _i != NLC_MODEL_HERTZ; force /= 1e3) { /* a/R falls by ten */
             const double error = fabs(displacement_at(_i, theta, nu, force) - point);
             ck_assert(error < 1e-12 || error < 0.05 * before);
@@ -907,6 +909,58 @@ START_TEST(beyond_the_end)
 }
 END_TEST
 
+/* Displacement of side e by all other forces on its particle, from the scalar functions; w: where contact points are, see [MC] III. */
+static double side_of(const scene *s, int64_t e, const double *force, const double *w)
+{
+    const int64_t c = e / 2;
+    const int32_t k = e % 2 ? s->j[c] : s->i[c];
+    const nlc_material m = s->rows[s->material[k]];
+    const double R = s->radius[k];
+    double sum = 0;
+    for (int64_t f = 0; f < 2 * s->contacts; f++) {
+        const int64_t d = f / 2, mine = f % 2 ? s->j[d] : s->i[d], other = f % 2 ? s->i[d] : s->j[d];
+        const double *a = s->normal + 3 * c, *b = s->normal + 3 * d, A = e % 2 ? -1 : 1, B = f % 2 ? -1 : 1;
+        if (mine != k || f == e) continue;
+        const nlc_material o = s->rows[other < s->particles ? s->material[other] : s->wall_material[other - s->particles]];
+        const double S = other < s->particles ? s->radius[other] : INFINITY, theta = angle(a, b, A * B);
+        const double circle = nlc_contact_radius(force[d], m.young, m.poisson, R, o.young, o.poisson, S);
+        const double p = R + w[e] - fmax(s->overlap[c] + w[2 * c] + w[2 * c + 1], 0) / 2;
+        const double q = R + w[f] - fmax(s->overlap[d] + w[2 * d] + w[2 * d + 1], 0) / 2;
+        const double from[3] = {-B * b[0], -B * b[1], -B * b[2]}, to[3] = {-A * a[0], -A * a[1], -A * a[2]};
+        const double r[3] = {q * from[0] - p * to[0], q * from[1] - p * to[1], q * from[2] - p * to[2]};
+        if (s->options.model == NLC_MODEL_LOVE) sum += nlc_love_nonlocal_displacement(force[d], circle, theta, R, m.young, m.poisson);
+        else if (is_deformed(s)) sum += nlc_half_space_displacement(force[d], from, to, r, m.young, m.poisson, 1);
+        else if (s->options.model == NLC_MODEL_POINT_FORCE) sum += nlc_sphere_displacement(force[d], theta, R, m.young, m.poisson);
+        else if (s->options.model != NLC_MODEL_HERTZ) sum += nlc_nonlocal_displacement(force[d], theta, R, m.young, m.poisson);
+    }
+    return sum;
+}
+
+/* Every side of every scene; the contact points of the half-space are put where the numbers say. */
+static void compare_sweep(scene *s)
+{
+    ck_assert_int_eq(scene_build(s), NLC_OK);
+    double *force = array(s->contacts), *w = array(2 * s->contacts), *before = array(2 * s->contacts);
+    rng g = {21};
+    for (int64_t e = 0; e < 2 * s->contacts; e++) {
+        const int32_t k = e % 2 ? s->j[e / 2] : s->i[e / 2];
+        const bool yields = k < s->particles && isfinite(s->rows[s->material[k]].young);
+        before[e] = w[e] = yields ? fabs(s->overlap[e / 2]) * rng_uniform(&g, -1, 1) : 0;
+        force[e / 2] = (double)scene_stiffness(s, e / 2) * pow(fabs(s->overlap[e / 2]), 1.5) * rng_uniform(&g, 0, 2);
+    }
+    ck_assert_int_eq(nlc_sweep(s->network, w, force, s->overlap, s->normal, 0), NLC_OK);
+    const double size = size_of(w, 2 * s->contacts);
+    for (int64_t e = 0; e < 2 * s->contacts; e++) {
+        const int32_t k = e % 2 ? s->j[e / 2] : s->i[e / 2];
+        double unused[200] = {0}, exact = 0;
+        if (k < s->particles && isfinite(s->rows[s->material[k]].young))
+            exact = s->options.model == NLC_MODEL_SPHERE ? -side_of_sphere(s, e / 2, (int)(e % 2), force, 0, unused)
+                                                         : side_of(s, e, force, before);
+        nlc_assert_abs(w[e], exact, 2e-12 * size); /* S and D of the sphere have 1e-12 */
+    }
+    free(force), free(w), free(before);
+}
+
 /* A sphere that many small ones touch, evenly spread: with count contacts their circles are apart by the choice of the overlap. */
 static void many(scene *s, int v, int count, double overlap, double nu)
 {
@@ -920,7 +974,21 @@ static void many(scene *s, int v, int count, double overlap, double nu)
     }
 }
 
-/* Blocks of 64 are exceeded: the law holds, and half of a ring of 128 is what one of 64 has. */
+START_TEST(sweeps_are_what_the_scalar_functions_say)
+{
+    scene s;
+    for (int which = 0; which < SCENES && _i != NLC_MODEL_SPHERE; which++) {
+        make(&s, _i, which, 0);
+        compare_sweep(&s);
+        scene_free(&s);
+    }
+    many(&s, _i, 150, 1e-3, 0.3); /* three blocks */
+    compare_sweep(&s);
+    scene_free(&s);
+}
+END_TEST
+
+/* Blocks of 64 are exceeded: the law holds, and the displacements of two parts of the forces add up. */
 START_TEST(many_contacts_on_one_particle)
 {
     static const int count[] = {63, 64, 65, 129, 700};
@@ -1014,6 +1082,7 @@ int main(void)
     tcase_add_loop_test(tc, close_contacts_are_on_a_half_space, 0, variants);
     tcase_add_loop_test(tc, small_overlaps, 0, variants);
     tcase_add_test(tc, sphere_is_point_forces_and_their_own_displacement);
+    tcase_add_loop_test(tc, sweeps_are_what_the_scalar_functions_say, 0, variants);
     tcase_add_test(tc, unequal_sides_are_tilted);
     tcase_add_loop_test(tc, exchange_of_sides_changes_no_bit, 0, variants);
     tcase_add_loop_test(tc, order_of_contacts_changes_last_bits_only, 0, variants);
