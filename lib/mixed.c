@@ -145,7 +145,10 @@ void nlc_mixed(nlc_network *n, const double *overlap, const double *normal, nlc_
         for (int64_t e = 0; e < 2 * n->contact_count; e++) n->own[e] = 0;
         out->status = NLC_OK;
         nlc_weaken(&q, out);
-        if (v.sides && out->status >= 0 && out->info.weakened == 0) out->status |= NLC_WARNING_NOT_CONVERGED; /* other equations */
+        if (v.sides && out->status == NLC_OK) { /* nothing to be weakened, and so the solution of other equations */
+            out->status = NLC_WARNING_NOT_CONVERGED;
+            out->info.residual = INFINITY;
+        }
     }
     nlc_iteration_end(&q);
 }
