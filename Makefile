@@ -101,7 +101,7 @@ bench: $(B)/bench/bench $(B)/bench/steps ## time the library against Algorithm 1
 REFERENCES = $(filter-out %/hertz_pressure.csv,$(foreach d,reference fe,$(sort $(wildcard $(S)/bench/data/$(d)/*.csv))))
 accuracy: $(B)/bench/accuracy ## the models' forces beside exact elasticity and finite elements, and their cost: tables, charts
 	@$(B)/bench/accuracy --csv $(B)/accuracy.csv --svg $(B)/accuracy.svg --packing $(PACKING) --cost $(B)/accuracy_cost.svg \
-		$(REFERENCES)
+		--surface $(S)/bench/data/reference/hertz_pressure.csv $(REFERENCES)
 
 # ---- the figures of [GC]
 FIGURES := $(B)/bench/figures/figures

@@ -11,6 +11,7 @@
 #include "analysis.h"
 #include "nlcontact.h"
 #include "reference_table.h"
+#include "surface_error.h"
 
 enum { EXIT_USAGE = 2, ERROR_SIZE = 400, MODELS = 16 };
 
@@ -25,6 +26,7 @@ static const char usage[] =
     "  --svg FILE      write a chart of the errors\n"
     "  --packing FILE  print how long the models take there\n"
     "  --cost FILE     write a chart of the errors against these times\n"
+    "  --surface FILE  print errors of the displacement beside one contact; hertz_pressure.csv\n"
     "\n"
     "Exit status: 0 success; 1 failure; 2 wrong usage.\n";
 
@@ -41,7 +43,7 @@ typedef struct job {
     int tables;
     accuracy_results results;
     int warnings[MODELS]; /* rows */
-    const char *csv_path, *svg_path, *cost_path, *packing_path;
+    const char *csv_path, *svg_path, *cost_path, *packing_path, *surface_path;
     packing p;
     neighbours n;
     FILE *csv;
@@ -326,6 +328,8 @@ static int parse_arguments(job *j, int argc, char **argv, int *status)
             j->packing_path = value;
         else if (strcmp(argv[k], "--cost") == 0)
             j->cost_path = value;
+        else if (strcmp(argv[k], "--surface") == 0)
+            j->surface_path = value;
         else
             *status = strcmp(argv[k], "--models") == 0 ? choose_models(j, value) : complain("no such option", argv[k]);
         if (*status) return 0;
@@ -442,6 +446,7 @@ static int run(job *j)
     int status = run_rows(j);
     if (!status) status = find_times(j);
     if (!status) print_all(j);
+    if (!status && j->surface_path && surface_error_print(j->surface_path)) status = EXIT_FAILURE;
     if (j->csv && close_file(j->csv, j->csv_path)) status = EXIT_FAILURE;
     if (!status) status = write_charts(j);
     return status;

@@ -641,9 +641,9 @@ NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *opti
  * coupling of its tangent in the place of C, what a contact's force does to the contact itself included.  NLC_MODEL_LOVE and
  * NLC_MODEL_HALF_SPACE at deformed contact points have neither an energy nor a symmetric tangent: they are solved by
  * Anderson's method, residual is an estimate from the steps taken (3 times the last change of the forces, times the largest
- * amplification met), lambda_lower and lambda_upper stay infinite unless it was weakened, and whether the state counts as stable, and how far the
- * coupling is weakened, is decided by the coefficients of NLC_MODEL_GONZALEZ_CUITINO (times the prefactor), whose limit for small
- * circles and displacements they are.  Weakened, the half-space is taken at undeformed points; where it finds no
+ * amplification met), lambda_lower and lambda_upper stay infinite unless it was weakened, and whether the state counts as
+ * stable, and how far the coupling is weakened, is decided by the coefficients of NLC_MODEL_GONZALEZ_CUITINO (times the
+ * prefactor), whose limit for small circles and displacements they are.  Weakened, the half-space is taken at undeformed points; where it finds no
  * solution at deformed ones although those are stable, it returns theirs with NLC_WARNING_NOT_CONVERGED.  It is also solved in
  * one piece, not cluster by cluster, and the displacements of the two sides are found anew in each solve, in as many sweeps.
  *
