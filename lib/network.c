@@ -3,7 +3,7 @@
 #include "network.h"
 
 #include "active.h"
-#include "hertz.h"
+#include "bodies.h"
 #include "particles.h"
 #include "structs.h"
 
@@ -109,58 +109,6 @@ size_t nlc_network_size(const nlc_particles *particles, int64_t contact_count, c
     return measure(&n, &p, contact_count, &size) == NLC_OK ? size : 0;
 }
 
-/* U = (1+nu) / (4 pi R E) */
-static double coupling_scale(double R, nlc_material m)
-{
-    if (!nlc_is_finite(m.young)) return 0;
-    nlc_scaled r = nlc_split(R), e = nlc_split(m.young);
-    return nlc_join((1 + m.poisson) / (4 * 3.14159265358979323846 * r.m * e.m), -r.e - e.e);
-}
-
-/* Whether all radii and finite moduli are so moderate that every n_H can be held. */
-static bool are_moderate(const nlc_particles *p)
-{
-    int32_t last = -1;
-    for (int64_t k = 0; k < p->count + p->wall_count; k++) {
-        if (k < p->count && !nlc_is_moderate(nlc_radius_of(p, k))) return false;
-        int32_t m = nlc_material_of(p, k);
-        if (m == last) continue;
-        last = m;
-        double young = nlc_material_row(p, m).young;
-        if (nlc_is_finite(young) && !nlc_is_moderate(young)) return false;
-    }
-    return true;
-}
-
-/* Whether every n_H can be held; found out before there is a network. */
-static bool stiffnesses_in_range(const nlc_particles *p, const int32_t *i, const int32_t *j, int64_t count, int64_t *culprit)
-{
-    const bool moderate = are_moderate(p);
-    for (int64_t c = 0; c < count && !moderate; c++) {
-        nlc_material a = nlc_material_row(p, nlc_material_of(p, i[c])), b = nlc_material_row(p, nlc_material_of(p, j[c]));
-        *culprit = c;
-        if (!nlc_is_positive(nlc_hertz_stiffness(a.young, a.poisson, i[c] < p->count ? nlc_radius_of(p, i[c]) : INFINITY,
-                                                 b.young, b.poisson, j[c] < p->count ? nlc_radius_of(p, j[c]) : INFINITY)))
-            return false;
-    }
-    *culprit = -1;
-    return true;
-}
-
-/* Largest U; subnormal ones have lost their digits. */
-static bool scales_in_range(const nlc_particles *p, int *exponent)
-{
-    double largest = 0;
-    for (int64_t k = 0; k < p->count; k++) {
-        nlc_material m = nlc_material_row(p, nlc_material_of(p, k));
-        double u = coupling_scale(nlc_radius_of(p, k), m);
-        if (nlc_is_finite(m.young) && !(nlc_is_finite(u) && u >= nlc_pow2(-1022))) return false;
-        largest = u > largest ? u : largest;
-    }
-    *exponent = nlc_exponent_above(largest);
-    return true;
-}
-
 void nlc_build_adjacency(nlc_network *n)
 {
     memset(n->start, 0, (size_t)(n->particle_count + 1) * sizeof *n->start);
@@ -180,12 +128,7 @@ void nlc_build_adjacency(nlc_network *n)
 
 static void build(nlc_network *n, const nlc_particles *p, const int32_t *i, const int32_t *j)
 {
-    for (int64_t k = 0; k < n->body_count; k++) n->material[k] = nlc_material_of(p, k);
-    for (int64_t m = 0; m < n->material_count; m++) n->materials[m] = nlc_material_row(p, m);
-    for (int64_t k = 0; k < n->particle_count; k++) {
-        n->radius[k] = nlc_radius_of(p, k);
-        n->scale[k] = coupling_scale(n->radius[k], n->materials[n->material[k]]);
-    }
+    nlc_set_bodies(n, p);
     if (n->contact_count > 0) {
         memcpy(n->i, i, (size_t)n->contact_count * sizeof *i);
         memcpy(n->j, j, (size_t)n->contact_count * sizeof *j);
@@ -203,17 +146,7 @@ static nlc_status check_all(nlc_network *n, nlc_settings *settings, const nlc_pa
 {
     nlc_status status = nlc_read_settings(settings, o, culprit);
     if (status != NLC_OK) return status;
-    if ((status = nlc_check_particles(p, culprit)) != NLC_OK) return status;
-    if ((status = nlc_check_contacts(p, i, j, n->contact_count, culprit)) != NLC_OK) return status;
-    if (o->stiffness) {
-        *culprit = nlc_first_not_positive(o->stiffness, n->contact_count);
-        if (*culprit >= 0) return NLC_ERROR_STIFFNESS;
-    } else if (!stiffnesses_in_range(p, i, j, n->contact_count, culprit)) {
-        return NLC_ERROR_RANGE;
-    }
-    *culprit = -1;
-    if (!scales_in_range(p, &n->scale_exponent)) return NLC_ERROR_RANGE;
-    return nlc_prefactor_in_range(n, settings) ? NLC_OK : NLC_ERROR_RANGE;
+    return nlc_check_bodies(n, settings, p, i, j, o->stiffness, culprit);
 }
 
 nlc_status nlc_network_init(nlc_network **network, void *memory, size_t memory_size, const nlc_particles *particles,
