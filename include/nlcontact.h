@@ -76,7 +76,7 @@ extern "C" {
 #define NLC_STATUS_LIST(X)                                                                                                  \
     X(NLC_OK,                     0, "success",                                                          "-1")              \
     X(NLC_ERROR_NULL,            -1, "a required argument is NULL",                                      "argument, from 0")\
-    X(NLC_ERROR_NULL_FIELD,      -2, "a required pointer in nlc_particles is NULL",                      "field's offset")  \
+    X(NLC_ERROR_NULL_FIELD,      -2, "a required pointer in a struct is NULL",                            "field's offset")  \
     X(NLC_ERROR_STRUCT_SIZE,     -3, "struct_size is not that of any version's struct",                  "argument, from 0")\
     X(NLC_ERROR_RESERVED,        -4, "bytes beyond the fields that this version knows are not zero",     "argument, from 0")\
     X(NLC_ERROR_COUNT,           -5, "a count is negative or too large",                                 "argument, from 0")\
@@ -105,6 +105,10 @@ extern "C" {
     X(NLC_ERROR_RANGE,          -28, "a result is beyond the range of double",                           "contact or -1")   \
     X(NLC_ERROR_UNSTABLE,       -29, "the state is beyond the end of the stable branch",                 "-1")              \
     X(NLC_ERROR_SLIDING,        -30, "a direction of sliding is not a unit vector along the surfaces",   "contact")         \
+    X(NLC_ERROR_POSITION,       -31, "a position is not finite",                                         "particle or wall")\
+    X(NLC_ERROR_SAME_PLACE,     -32, "two centres are in the same place",                                "contact")         \
+    X(NLC_ERROR_CELL,           -33, "a periodic cell is no cell, or narrower than two diameters",       "contact or -1")   \
+    X(NLC_ERROR_CAPACITY,       -34, "the room given is too small for the result",                       "room needed")     \
     X(NLC_WARNING_CLOSE,          1, "circles of contact overlap: the model does not hold there",        "-1")              \
     X(NLC_WARNING_ROUNDING,       2, "rounding keeps the forces from reaching the tolerance",            "-1")              \
     X(NLC_WARNING_WEAKENED,       4, "beyond the stable branch: the coupling was weakened",              "-1")              \
@@ -831,6 +835,159 @@ NLC_API nlc_status nlc_assemble_sliding(const nlc_network *network, double *NLC_
                                         const double *NLC_RESTRICT force, const double *NLC_RESTRICT normal,
                                         const double *NLC_RESTRICT sliding, const double *NLC_RESTRICT displacement,
                                         const double *NLC_RESTRICT overlap, double friction, nlc_info *info);
+
+/* -------------------------------------------------------------------------------------------------------------- hosts --
+ *
+ * For codes that have positions and neighbour lists: from these to contacts, from one neighbour list to the next.
+ */
+
+/*
+ * Where particles and walls are.  The components may be three arrays (stride 0), or every particle's in its struct: then x, y
+ * and z point into the first one, and the stride is the size of the struct.
+ */
+typedef struct nlc_positions {
+    size_t struct_size;        /* sizeof(nlc_positions) */
+    const double *x, *y, *z;   /* [particles] components of the centres [m] */
+    ptrdiff_t stride;          /* bytes from one particle to the next, in each of the three; 0: packed, 8 */
+    const double *wall_point;  /* [walls][3] a point of each wall [m] */
+    const double *wall_normal; /* [walls][3] unit vectors towards the particles, | |n|^2 - 1 | <= 1e-6 */
+    const double *cell;        /* [3][3] vectors of a periodic cell [m], zeros where it is not periodic; NULL: not at all */
+} nlc_positions;
+
+/* Neighbour lists of a host: one for each particle, as LAMMPS has them (its names in brackets). */
+typedef struct nlc_lists {
+    size_t struct_size;        /* sizeof(nlc_lists) */
+    int64_t count;             /* lists (inum) */
+    const int32_t *particle;   /* [count] whose they are (ilist); NULL: 0 ... count-1 */
+    int64_t particle_count;    /* rows of the next two (nlocal) */
+    const int32_t *length;     /* [particle_count] neighbours of each (numneigh) */
+    int32_t *const *neighbour; /* [particle_count][length] particles, also ghosts (firstneigh) */
+    int32_t mask;              /* their bits that are an index (NEIGHMASK, 0x1FFFFFFF); 0: all */
+    int32_t reserved;          /* 0 */
+} nlc_lists;
+
+/*
+ * nlc_contacts_from_pairs - overlaps and normals of pairs.
+ *
+ *     gamma = R_i + R_j - |x_j - x_i|,   n = (x_j - x_i) / |x_j - x_i|;      wall:  gamma = R_i - (x_i - p).m,   n = -m
+ *
+ * overlap         [contacts] out: gamma [m], negative for gaps.  A centre behind a wall gives more than R.
+ * normal          [contacts][3] out: from i to j, of unit length to rounding
+ * particles       count, radius, radius_stride and wall_count; the rest is not looked at
+ * positions       see nlc_positions; ghosts are particles like others here
+ * i, j            [contact_count] as for nlc_network_init
+ * contact_count   >= 0
+ * info            or NULL
+ *
+ * In a periodic cell the nearest image is taken.  It is found wherever it is nearer than half of the cell's least width (between
+ * opposite faces), so that any overlap is right if that width is at least 2 (R_i + R_j): two diameters of equal particles.  A
+ * narrower cell is an error.  A particle's contact with its own image, and images in narrow cells, need ghosts.  Positions may
+ * be any number of cells (below 2^51) outside; then their own rounding counts.
+ *
+ * Any units: nothing over- or underflows where the result can be held.  Centres nearer than 1e-9 (R_i + R_j) count as in the
+ * same place.  Exchanging i and j reverses the normal and changes no other bit.  Worst error found: of the overlap 2.3 ulp of the
+ * larger of R_i + R_j and the distance, at a wall 3 ulp of the larger of R and |x_i - p|; of a normal's component 1.3 ulp of 1.
+ * Returns NLC_OK; NLC_ERROR_NULL, _NULL_FIELD, _STRUCT_SIZE, _RESERVED, _COUNT, _STRIDE, _RADIUS, _INDEX, _WALL_WALL, _NORMAL (of
+ * a wall: that wall's index), _POSITION, _SAME_PLACE, _CELL, _RANGE.
+ */
+NLC_API nlc_status nlc_contacts_from_pairs(double *NLC_RESTRICT overlap, double *NLC_RESTRICT normal,
+                                           const nlc_particles *particles, const nlc_positions *positions,
+                                           const int32_t *NLC_RESTRICT i, const int32_t *NLC_RESTRICT j,
+                                           int64_t contact_count, nlc_info *info);
+
+/*
+ * nlc_contacts_from_lists - the pairs of neighbour lists that are near enough to be contacts or candidates.
+ *
+ * count       out: how many pairs have a gap below reach
+ * i, j        [capacity] out: the pairs in the order of the lists, after each list its particle's walls; both NULL: count only
+ * capacity    room in i and j
+ * particles   as for nlc_contacts_from_pairs; count is that of all particles with ghosts (LAMMPS: nlocal + nghost)
+ * positions   likewise
+ * lists       every pair once: half lists, in LAMMPS with newton on.  A pair that is listed twice becomes two contacts in the same
+ *             direction, which nlc_solve refuses.
+ * reach       >= 0 [m]: see nlc_reach
+ * info        or NULL
+ *
+ * Take the indices found here for nlc_contacts_from_pairs; for nlc_network_init replace ghosts by the particles that they are
+ * images of, and wall numbers by those that follow the particles without ghosts.
+ * Every particle that has a list is looked at with every wall.
+ * On error the culprit of a wrong index or length, of centres in the same place, of a cell and of a range is the list's number.
+ * Returns NLC_OK; NLC_ERROR_NULL, _NULL_FIELD, _STRUCT_SIZE, _RESERVED, _COUNT, _STRIDE, _OPTION (reach), _RADIUS, _INDEX,
+ * _NORMAL, _POSITION, _SAME_PLACE, _CELL, _CAPACITY, _RANGE.
+ */
+NLC_API nlc_status nlc_contacts_from_lists(int64_t *NLC_RESTRICT count, int32_t *NLC_RESTRICT i, int32_t *NLC_RESTRICT j,
+                                           int64_t capacity, const nlc_particles *particles, const nlc_positions *positions,
+                                           const nlc_lists *lists, double reach, nlc_info *info);
+
+/*
+ * nlc_reach - how wide a gap the displacements may close: which pairs a neighbour list has to hold.
+ *
+ *     b_k = U_k K F_k,   F_k = sum of the forces on particle k,   U = (1+nu) / (4 pi R E)
+ *
+ * No point of k's surface where no force acts is displaced outward by more than b_k.  K is the largest value of the model's
+ * displacement / (U P) over all directions:
+ *     NLC_MODEL_GONZALEZ_CUITINO   3 - 2 nu: [GC] 5 grows with s, so that the point opposite to the force moves most ([GC] 11)
+ *     NLC_MODEL_HALF_SPACE         the same times the prefactor; at deformed contact points twice that, since none is taken for
+ *                                  farther than R/2 from the undeformed surface, two of them for nearer than R
+ *     NLC_MODEL_LOVE               3 - 2 nu: found in a search over all circles up to a = R
+ *     NLC_MODEL_SPHERE, NLC_MODEL_POINT_FORCE   0.76 + 1.4 nu - 0.9 nu^2, 0.1 to 1.3 % above the largest value found, between 66 and
+ *                                  75 degrees; the size of the circles does not add to it (a search over all sizes and tilts)
+ *     NLC_MODEL_HERTZ              0
+ *
+ * network        from nlc_network_init
+ * reach          out: 2 max b_k [m], the widest gap between any two particles that can close
+ * displacement   [particles] out: b_k [m]; or NULL
+ * force          [contacts] P >= 0 of nlc_solve [N]
+ * info           or NULL: critical_particle, where b_k is largest
+ *
+ * Promised: the forces of nlc_solve solve the equations of a longer list as well, which has any other pairs with
+ * gaps of at least b_i + b_j, or b_i at walls: those stay open.  Not promised: anything about forces yet to come.  As they grow
+ * the reach does; add what it may grow, and how far particles may move towards each other, until the next list.
+ * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _FORCE, _RANGE.
+ */
+NLC_API nlc_status nlc_reach(const nlc_network *network, double *NLC_RESTRICT reach, double *NLC_RESTRICT displacement,
+                             const double *NLC_RESTRICT force, nlc_info *info);
+
+/*
+ * nlc_carry_size - bytes that nlc_carry needs to work in; 0 if a count is negative or the size overflows.
+ */
+NLC_API size_t nlc_carry_size(int64_t contact_count, int64_t old_count);
+
+/*
+ * nlc_carry - carry the nonlocal displacements over to the contacts of a new neighbour list.
+ *
+ * nonlocal        [contact_count] out: that of the old contact with the same key, 0 where there is none [m]
+ * key             [contact_count] the caller's names of the contacts, such as both particles' lasting numbers in one integer, the
+ *                 smaller one first.  A key may be there several times (periodic images): the first of the new
+ *                 contacts gets the first of the old ones, and so on.
+ * contact_count   of the new list
+ * old_nonlocal    [old_count] [m]; any other values per contact will do
+ * old_key         [old_count]
+ * old_count       of the old list
+ * memory          at least nlc_carry_size bytes, aligned to 8, to work in: that of the network about to be built will do
+ * memory_size     bytes
+ * info            or NULL: left_out, contacts of the new list that are in no old one
+ * Time is that of sorting both lists, less where they are sorted.
+ * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _COUNT, _CAPACITY, _ALIGNMENT, _NONLOCAL (old_nonlocal).
+ */
+NLC_API nlc_status nlc_carry(double *NLC_RESTRICT nonlocal, const uint64_t *NLC_RESTRICT key, int64_t contact_count,
+                             const double *NLC_RESTRICT old_nonlocal, const uint64_t *NLC_RESTRICT old_key, int64_t old_count,
+                             void *memory, size_t memory_size, nlc_info *info);
+
+/*
+ * nlc_network_update - other radii and materials for the same contacts: grains that swell, soften or wear.
+ *
+ * The network is then, bit for bit in what it computes, as if it had been built anew with its options.
+ *
+ * network     from nlc_network_init
+ * particles   see nlc_particles; count, wall_count and material_count as the network was built with
+ * stiffness   [contacts] as options.stiffness: k of a law of the host's own, NULL: n_H.  What the network had is not kept.
+ * info        or NULL
+ * Returns NLC_OK; NLC_ERROR_NULL, _NULL_FIELD, _STRUCT_SIZE, _RESERVED, _NETWORK, _COUNT, _STRIDE, _RADIUS, _MATERIAL, _YOUNG,
+ * _POISSON, _RIGID_RIGID, _STIFFNESS, _RANGE.
+ */
+NLC_API nlc_status nlc_network_update(nlc_network *network, const nlc_particles *particles, const double *stiffness,
+                                      nlc_info *info);
 
 #ifdef __cplusplus
 }

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
-/* bodies.c - what a network takes from the particles. */
+/* bodies.c - what a network takes from the particles, and other particles for the same contacts. */
 #include "bodies.h"
 
+#include "active.h"
 #include "hertz.h"
 #include "particles.h"
+#include "structs.h"
 
 /* U = (1+nu) / (4 pi R E) */
 static double coupling_scale(double R, nlc_material m)
@@ -82,4 +84,28 @@ void nlc_set_bodies(nlc_network *n, const nlc_particles *p)
         n->radius[k] = nlc_radius_of(p, k);
         n->scale[k] = coupling_scale(n->radius[k], n->materials[n->material[k]]);
     }
+}
+
+nlc_status nlc_network_update(nlc_network *network, const nlc_particles *particles, const double *stiffness, nlc_info *info)
+{
+    nlc_particles p;
+    nlc_status status;
+    int64_t culprit;
+    if (!nlc_info_is_valid(info)) return NLC_ERROR_STRUCT_SIZE;
+    if (!network) return nlc_error(info, NLC_ERROR_NULL, 0);
+    if (!particles) return nlc_error(info, NLC_ERROR_NULL, 1);
+    if (!nlc_network_is_valid(network)) return nlc_error(info, NLC_ERROR_NETWORK, -1);
+    if ((status = nlc_read_counts(&p, particles)) != NLC_OK) return nlc_error(info, status, 1);
+    if (p.count != network->particle_count || p.count + p.wall_count != network->body_count ||
+        p.material_count != network->material_count)
+        return nlc_error(info, NLC_ERROR_COUNT, 1);
+    nlc_network n = *network; /* the network is written to only when all is checked */
+    const nlc_settings settings = n.settings;
+    status = nlc_check_bodies(&n, &settings, &p, n.i, n.j, stiffness, &culprit);
+    if (status != NLC_OK) return nlc_error(info, status, culprit);
+    network->scale_exponent = n.scale_exponent;
+    nlc_set_bodies(network, &p);
+    network->connected = nlc_is_connected(network);
+    nlc_apply_settings(network, &settings, stiffness);
+    return nlc_error(info, NLC_OK, -1);
 }

@@ -5,8 +5,7 @@
 #include "hertz.h"
 #include "structs.h"
 
-/* Whether elements of this size can be this many bytes apart: not overlapping, and the last one's offset can be held. */
-static bool is_stride(ptrdiff_t stride, size_t size, int64_t count)
+bool nlc_is_stride(ptrdiff_t stride, size_t size, int64_t count)
 {
     if (stride > -(ptrdiff_t)size && stride < (ptrdiff_t)size) return false;
     ptrdiff_t magnitude = stride < 0 ? -(stride + 1) : stride;
@@ -34,9 +33,9 @@ static nlc_status check_pointers(const nlc_particles *p, int64_t *culprit)
     *culprit = offsetof(nlc_particles, materials);
     if (p->count + p->wall_count > 0 && !p->materials) return NLC_ERROR_NULL_FIELD;
     *culprit = offsetof(nlc_particles, radius_stride);
-    if (!is_stride(p->radius_stride, sizeof(double), p->count)) return NLC_ERROR_STRIDE;
+    if (!nlc_is_stride(p->radius_stride, sizeof(double), p->count)) return NLC_ERROR_STRIDE;
     *culprit = offsetof(nlc_particles, material_stride);
-    if (!is_stride(p->material_stride, sizeof(int32_t), p->count)) return NLC_ERROR_STRIDE;
+    if (!nlc_is_stride(p->material_stride, sizeof(int32_t), p->count)) return NLC_ERROR_STRIDE;
     *culprit = offsetof(nlc_particles, material_size);
     if (p->material_size < sizeof(nlc_material) || p->material_size > NLC_STRUCT_MAX) return NLC_ERROR_STRIDE;
     if (p->material_count > PTRDIFF_MAX / (ptrdiff_t)p->material_size) return NLC_ERROR_STRIDE;

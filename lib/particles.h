@@ -35,6 +35,9 @@ static inline nlc_material nlc_material_row(const nlc_particles *p, int64_t mate
     return m;
 }
 
+/* Whether elements of this size can be this many bytes apart: not overlapping, and the last one's offset can be held. */
+bool nlc_is_stride(ptrdiff_t stride, size_t size, int64_t count);
+
 /* Reads the struct, replaces strides of 0 by packed ones and checks counts only. */
 nlc_status nlc_read_counts(nlc_particles *to, const nlc_particles *from);
 

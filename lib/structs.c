@@ -19,6 +19,15 @@ static const size_t options_ends[] = {
     END(nlc_options, tolerance),   END(nlc_options, max_sweeps), END(nlc_options, prefactor),
     END(nlc_options, simd),        END(nlc_options, points),   END(nlc_options, stiffness),
 };
+static const size_t positions_ends[] = {
+    END(nlc_positions, struct_size), END(nlc_positions, x),          END(nlc_positions, y),
+    END(nlc_positions, z),           END(nlc_positions, stride),     END(nlc_positions, wall_point),
+    END(nlc_positions, wall_normal), END(nlc_positions, cell),
+};
+static const size_t lists_ends[] = {
+    END(nlc_lists, struct_size), END(nlc_lists, count),     END(nlc_lists, particle), END(nlc_lists, particle_count),
+    END(nlc_lists, length),      END(nlc_lists, neighbour), END(nlc_lists, mask),     END(nlc_lists, reserved),
+};
 
 static nlc_status read_struct(void *to, size_t own, const void *from, const size_t *ends, size_t count)
 {
@@ -43,6 +52,16 @@ nlc_status nlc_read_options(nlc_options *to, const nlc_options *from)
     if (from) return read_struct(to, sizeof *to, from, options_ends, sizeof options_ends / sizeof *options_ends);
     memset(to, 0, sizeof *to);
     return NLC_OK;
+}
+
+nlc_status nlc_read_positions(nlc_positions *to, const nlc_positions *from)
+{
+    return read_struct(to, sizeof *to, from, positions_ends, sizeof positions_ends / sizeof *positions_ends);
+}
+
+nlc_status nlc_read_lists(nlc_lists *to, const nlc_lists *from)
+{
+    return read_struct(to, sizeof *to, from, lists_ends, sizeof lists_ends / sizeof *lists_ends);
 }
 
 int nlc_struct_size_is_valid(size_t size)

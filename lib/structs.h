@@ -15,6 +15,8 @@
  */
 nlc_status nlc_read_particles(nlc_particles *to, const nlc_particles *from);
 nlc_status nlc_read_options(nlc_options *to, const nlc_options *from); /* from NULL: all zero */
+nlc_status nlc_read_positions(nlc_positions *to, const nlc_positions *from);
+nlc_status nlc_read_lists(nlc_lists *to, const nlc_lists *from);
 
 /* Whether a struct of this size can be written to. */
 int nlc_struct_size_is_valid(size_t size);

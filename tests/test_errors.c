@@ -540,6 +540,215 @@ START_TEST(prediction)
 }
 END_TEST
 
+/* A scene for hosts: four particles in a row, one of them behind a wall, and their half lists. */
+static struct {
+    double x[4], y[4], z[4], point[3], normal[3], cell[9], overlap[3], out[9], reach, b[4];
+    int32_t i[3], j[3], found_i[9], found_j[9], length[4], row[4][3], *neighbour[4];
+    int64_t count;
+    nlc_particles particles;
+    nlc_positions positions;
+    nlc_lists lists;
+} h, h_before;
+
+static void set_up_host(void)
+{
+    const int32_t i[3] = {0, 1, 4}, j[3] = {1, 2, 3};
+    memset(&h, 0, sizeof h);
+    for (int k = 0; k < 4; k++) h.x[k] = 2 * k;
+    memcpy(h.i, i, sizeof i);
+    memcpy(h.j, j, sizeof j);
+    h.normal[1] = 1;
+    for (int k = 0; k < 4; k++) h.neighbour[k] = h.row[k];
+    for (int k = 0; k < 3; k++) h.length[k] = 1, h.row[k][0] = k + 1;
+    h.particles = (nlc_particles){.struct_size = sizeof h.particles, .count = 4, .radius = f.s.radius, .wall_count = 1};
+    h.positions = (nlc_positions){.struct_size = sizeof h.positions, .x = h.x, .y = h.y, .z = h.z, .wall_point = h.point,
+                                  .wall_normal = h.normal};
+    h.lists = (nlc_lists){.struct_size = sizeof h.lists, .count = 4, .particle_count = 4, .length = h.length,
+                          .neighbour = h.neighbour};
+}
+
+static nlc_status pairs(void)
+{
+    return nlc_contacts_from_pairs(h.overlap, h.out, &h.particles, &h.positions, h.i, h.j, 3, &f.info);
+}
+
+static nlc_status lists(void)
+{
+    return nlc_contacts_from_lists(&h.count, h.found_i, h.found_j, 9, &h.particles, &h.positions, &h.lists, 0.5, &f.info);
+}
+
+#define WITH_HOST(lvalue, bad, call, status, culprit)                                                                       \
+    do {                                                                                                                    \
+        __typeof__(lvalue) good_ = (lvalue);                                                                                \
+        (lvalue) = (bad);                                                                                                   \
+        h_before = h;                                                                                                       \
+        keep();                                                                                                             \
+        demand(call, status, culprit);                                                                                      \
+        ck_assert_msg(memcmp(&h, &h_before, sizeof h) == 0, "%s: something was changed", nlc_strerror(status));             \
+        (lvalue) = good_;                                                                                                   \
+    } while (0)
+#define WITH_BOTH(lvalue, bad, status, in_pairs, in_lists)                                                                  \
+    do {                                                                                                                    \
+        WITH_HOST(lvalue, bad, pairs(), status, in_pairs);                                                                  \
+        WITH_HOST(lvalue, bad, lists(), status, in_lists);                                                                  \
+    } while (0)
+#define WITH_FIELD(lvalue, bad, status, type, field) WITH_BOTH(lvalue, bad, status, offsetof(type, field), offsetof(type, field))
+
+START_TEST(hosts)
+{
+    set_up_host();
+    WITH_BOTH(h.particles.struct_size, 3, NLC_ERROR_STRUCT_SIZE, 2, 4);
+    WITH_BOTH(h.positions.struct_size, 1u << 20, NLC_ERROR_STRUCT_SIZE, 3, 5);
+    WITH_BOTH(h.particles.count, -1, NLC_ERROR_COUNT, 2, 4);
+    WITH_BOTH(h.particles.count, (int64_t)INT32_MAX, NLC_ERROR_COUNT, 2, 4);
+    WITH_BOTH(h.particles.wall_count, -1, NLC_ERROR_COUNT, 2, 4);
+    WITH_FIELD(h.particles.radius, 0, NLC_ERROR_NULL_FIELD, nlc_particles, radius);
+    WITH_FIELD(h.positions.x, 0, NLC_ERROR_NULL_FIELD, nlc_positions, x);
+    WITH_FIELD(h.positions.y, 0, NLC_ERROR_NULL_FIELD, nlc_positions, y);
+    WITH_FIELD(h.positions.z, 0, NLC_ERROR_NULL_FIELD, nlc_positions, z);
+    WITH_FIELD(h.positions.wall_point, 0, NLC_ERROR_NULL_FIELD, nlc_positions, wall_point);
+    WITH_FIELD(h.positions.wall_normal, 0, NLC_ERROR_NULL_FIELD, nlc_positions, wall_normal);
+    WITH_FIELD(h.particles.radius_stride, 4, NLC_ERROR_STRIDE, nlc_particles, radius_stride);
+    WITH_FIELD(h.positions.stride, -7, NLC_ERROR_STRIDE, nlc_positions, stride);
+    WITH_FIELD(h.positions.stride, PTRDIFF_MIN, NLC_ERROR_STRIDE, nlc_positions, stride);
+    for (int b = 0; b < 4; b++) {
+        const double bad = not_finite[b];
+        WITH_BOTH(h.y[2], bad, NLC_ERROR_POSITION, 2, 2);
+        WITH_BOTH(h.point[1], bad, NLC_ERROR_POSITION, 4, 4);
+        WITH_BOTH(h.normal[1], bad, NLC_ERROR_NORMAL, 4, 4);
+        WITH_BOTH(f.s.radius[3], bad, NLC_ERROR_RADIUS, 3, 3);
+        WITH_BOTH(h.positions.cell, (double[9]){bad}, NLC_ERROR_CELL, -1, -1);
+        WITH_HOST(h.count, 0, nlc_contacts_from_lists(&h.count, 0, 0, 0, &h.particles, &h.positions, &h.lists, bad, &f.info),
+                  NLC_ERROR_OPTION, 7);
+    }
+    WITH_BOTH(f.s.radius[2], 0, NLC_ERROR_RADIUS, 2, 2);
+    WITH_BOTH(h.normal[1], 0.99, NLC_ERROR_NORMAL, 4, 4);
+    WITH_BOTH(h.x[2], h.x[1] + 1e-9, NLC_ERROR_SAME_PLACE, 1, 1);
+    WITH_BOTH(h.positions.cell, ((double[9]){9, 0, 0, 0, 9, 0, 9, 9, 1e-7}), NLC_ERROR_CELL, -1, -1);
+    WITH_BOTH(h.positions.cell, ((double[9]){9, 0, 0, 9, 0, 0}), NLC_ERROR_CELL, -1, -1);
+    WITH_BOTH(h.positions.cell, ((double[9]){9, 0, 0, 0, 9, 0, 5, 0, 4.25}), NLC_ERROR_CELL, 1, 1); /* 0 and 1: 4.2 */
+    WITH_BOTH(h.positions.cell, ((double[9]){1e-300}), NLC_ERROR_RANGE, 0, 0);
+    for (int32_t bad = -1; bad < 12; bad += 6) WITH_HOST(h.i[1], bad, pairs(), NLC_ERROR_INDEX, 1);
+    WITH_HOST(h.j[2], 4, pairs(), NLC_ERROR_WALL_WALL, 2);
+    h.x[0] = -1.7e308;
+    WITH_HOST(h.x[1], 1.7e308, pairs(), NLC_ERROR_RANGE, 0);
+    h.x[1] = 1.7e308; /* in lists it is just too far away; 1 and 2 are, too */
+    ck_assert_int_eq(lists(), NLC_OK);
+    ck_assert_int_eq(h.count, 5);
+}
+END_TEST
+
+START_TEST(hosts_arguments)
+{
+    double *const none = 0;
+    set_up_host();
+    h_before = h;
+    keep();
+    for (int k = 0; k < 6; k++)
+        demand(nlc_contacts_from_pairs(k == 0 ? none : h.overlap, k == 1 ? none : h.out, k == 2 ? 0 : &h.particles,
+                                       k == 3 ? 0 : &h.positions, k == 4 ? 0 : h.i, k == 5 ? 0 : h.j, 3, &f.info), NLC_ERROR_NULL, k);
+    demand(nlc_contacts_from_pairs(h.overlap, h.out, &h.particles, &h.positions, h.i, h.j, -1, &f.info), NLC_ERROR_COUNT, 6);
+    for (int k = 0; k < 7; k++)
+        if (k != 3)
+            demand(nlc_contacts_from_lists(k == 0 ? 0 : &h.count, k == 1 ? 0 : h.found_i, k == 2 ? 0 : h.found_j, 9,
+                                           k == 4 ? 0 : &h.particles, k == 5 ? 0 : &h.positions, k == 6 ? 0 : &h.lists, 0.5, &f.info),
+                   NLC_ERROR_NULL, k);
+    demand(nlc_contacts_from_lists(&h.count, 0, 0, -1, &h.particles, &h.positions, &h.lists, 0.5, &f.info), NLC_ERROR_COUNT, 3);
+    demand(nlc_contacts_from_lists(&h.count, h.found_i, h.found_j, 6, &h.particles, &h.positions, &h.lists, 0.5, &f.info),
+           NLC_ERROR_CAPACITY, 7); /* three pairs, four at the wall */
+    ck_assert(memcmp(&h, &h_before, sizeof h) == 0);
+    WITH_HOST(h.lists.struct_size, 1, lists(), NLC_ERROR_STRUCT_SIZE, 6);
+    WITH_HOST(h.lists.reserved, 1, lists(), NLC_ERROR_RESERVED, 6);
+    WITH_HOST(h.lists.count, -1, lists(), NLC_ERROR_COUNT, 6);
+    WITH_HOST(h.lists.count, 5, lists(), NLC_ERROR_INDEX, 4);
+    WITH_HOST(h.lists.particle_count, 3, lists(), NLC_ERROR_INDEX, 3);
+    WITH_HOST(h.lists.particle_count, -1, lists(), NLC_ERROR_COUNT, 6);
+    WITH_HOST(h.lists.length, 0, lists(), NLC_ERROR_NULL_FIELD, offsetof(nlc_lists, length));
+    WITH_HOST(h.lists.neighbour, 0, lists(), NLC_ERROR_NULL_FIELD, offsetof(nlc_lists, neighbour));
+    WITH_HOST(h.neighbour[1], 0, lists(), NLC_ERROR_NULL_FIELD, offsetof(nlc_lists, neighbour));
+    WITH_HOST(h.length[2], -1, lists(), NLC_ERROR_COUNT, 2);
+    WITH_HOST(h.row[1][0], -2, lists(), NLC_ERROR_INDEX, 1);
+    WITH_HOST(h.row[1][0], 4, lists(), NLC_ERROR_INDEX, 1); /* a wall is in no list */
+    WITH_HOST(h.row[1][0], 1, lists(), NLC_ERROR_SAME_PLACE, 1);
+    uint64_t not_a_network[40] = {0};
+    keep();
+    demand(nlc_reach(0, &h.reach, h.b, f.force, &f.info), NLC_ERROR_NULL, 0);
+    demand(nlc_reach(f.s.network, 0, h.b, f.force, &f.info), NLC_ERROR_NULL, 1);
+    demand(nlc_reach(f.s.network, &h.reach, h.b, 0, &f.info), NLC_ERROR_NULL, 3);
+    demand(nlc_reach((nlc_network *)not_a_network, &h.reach, h.b, f.force, &f.info), NLC_ERROR_NETWORK, -1);
+    const double bad[] = {NAN, INFINITY, -1};
+    for (int b = 0; b < 3; b++) WITH_HOST(f.force[2], bad[b], nlc_reach(f.s.network, &h.reach, h.b, f.force, &f.info), NLC_ERROR_FORCE, 2);
+    f.s.rows[0].young = 1e-10;
+    ck_assert_int_eq(init(), NLC_OK);
+    WITH_HOST(f.force[2], 1e305, nlc_reach(f.s.network, &h.reach, h.b, f.force, &f.info), NLC_ERROR_RANGE, -1);
+}
+END_TEST
+
+START_TEST(carrying)
+{
+    const uint64_t key[5] = {3, 1, 2, 3, 9};
+    static uint64_t memory[64];
+    const size_t size = nlc_carry_size(5, 5);
+    keep();
+    demand(nlc_carry(0, key, 5, f.force, key, 5, memory, size, &f.info), NLC_ERROR_NULL, 0);
+    demand(nlc_carry(f.nonlocal, 0, 5, f.force, key, 5, memory, size, &f.info), NLC_ERROR_NULL, 1);
+    demand(nlc_carry(f.nonlocal, key, 5, 0, key, 5, memory, size, &f.info), NLC_ERROR_NULL, 3);
+    demand(nlc_carry(f.nonlocal, key, 5, f.force, 0, 5, memory, size, &f.info), NLC_ERROR_NULL, 4);
+    demand(nlc_carry(f.nonlocal, key, 5, f.force, key, 5, 0, size, &f.info), NLC_ERROR_NULL, 6);
+    demand(nlc_carry(f.nonlocal, key, -1, f.force, key, 5, memory, size, &f.info), NLC_ERROR_COUNT, 2);
+    demand(nlc_carry(f.nonlocal, key, 5, f.force, key, -1, memory, size, &f.info), NLC_ERROR_COUNT, 5);
+    demand(nlc_carry(f.nonlocal, key, INT64_MAX, f.force, key, 5, memory, size, &f.info), NLC_ERROR_COUNT, 2);
+    demand(nlc_carry(f.nonlocal, key, 5, f.force, key, 5, (char *)memory + 4, size, &f.info), NLC_ERROR_ALIGNMENT, 4);
+    demand(nlc_carry(f.nonlocal, key, 5, f.force, key, 5, memory, size - 1, &f.info), NLC_ERROR_CAPACITY, (int64_t)size);
+    for (int b = 0; b < 4; b++)
+        WITH(f.force[3], not_finite[b], nlc_carry(f.nonlocal, key, 5, f.force, key, 5, memory, size, &f.info), NLC_ERROR_NONLOCAL, 3);
+    for (int k = 0; k < 64; k++) ck_assert(memory[k] == 0);
+    ck_assert_uint_eq(nlc_carry_size(-1, 0), 0);
+    ck_assert_uint_eq(nlc_carry_size(0, INT64_MAX), 0);
+    ck_assert_int_eq(nlc_carry(0, 0, 0, 0, 0, 0, memory, sizeof memory, 0), NLC_OK);
+}
+END_TEST
+
+static double new_stiffness[5] = {1, 2, 3, 4, 5}, *stiffness_given;
+
+static nlc_status update(void)
+{
+    return nlc_network_update(f.s.network, &f.view, stiffness_given, &f.info);
+}
+
+START_TEST(updates)
+{
+    uint64_t not_a_network[40] = {0};
+    keep();
+    demand(nlc_network_update(0, &f.view, 0, &f.info), NLC_ERROR_NULL, 0);
+    demand(nlc_network_update(f.s.network, 0, 0, &f.info), NLC_ERROR_NULL, 1);
+    demand(nlc_network_update((nlc_network *)not_a_network, &f.view, 0, &f.info), NLC_ERROR_NETWORK, -1);
+    WITH(f.view.struct_size, 1u << 20, update(), NLC_ERROR_STRUCT_SIZE, 1);
+    WITH(f.view.count, 3, update(), NLC_ERROR_COUNT, 1);
+    WITH(f.view.wall_count, 2, update(), NLC_ERROR_COUNT, 1);
+    WITH(f.view.material_count, 2, update(), NLC_ERROR_COUNT, 1);
+    WITH(f.view.radius, 0, update(), NLC_ERROR_NULL_FIELD, offsetof(nlc_particles, radius));
+    WITH(f.view.radius_stride, 4, update(), NLC_ERROR_STRIDE, offsetof(nlc_particles, radius_stride));
+    WITH(f.s.radius[2], NAN, update(), NLC_ERROR_RADIUS, 2);
+    WITH(f.s.rows[0].young, -1, update(), NLC_ERROR_YOUNG, 0);
+    WITH(f.s.rows[0].poisson, 0.6, update(), NLC_ERROR_POISSON, 0);
+    WITH(f.s.material[1], 3, update(), NLC_ERROR_MATERIAL, 1);
+    WITH(f.s.material[0], 1, update(), NLC_ERROR_RIGID_RIGID, 3);
+    WITH(f.s.radius[0], 1e305, update(), NLC_ERROR_RANGE, -1);
+    stiffness_given = new_stiffness;
+    WITH(new_stiffness[3], 0, update(), NLC_ERROR_STIFFNESS, 3);
+    stiffness_given = 0;
+    f.s.radius[2] = 2;
+    ck_assert_int_eq(update(), NLC_OK);
+    ck_assert_int_eq(solve(), NLC_OK);
+    f.s.rows[0].young = 1e-30; /* the new coefficients are looked at */
+    ck_assert_int_eq(update(), NLC_OK);
+    f.force[1] = 1e300;
+    keep();
+    demand(sweep(), NLC_ERROR_RANGE, -1);
+}
+END_TEST
+
 /* Must be the last test: every error of the list has been caused by one before. */
 START_TEST(every_error_was_met)
 {
@@ -590,6 +799,10 @@ int main(void)
     tcase_add_test(t, models);
     tcase_add_test(t, sliding);
     tcase_add_test(t, prediction);
+    tcase_add_test(t, hosts);
+    tcase_add_test(t, hosts_arguments);
+    tcase_add_test(t, carrying);
+    tcase_add_test(t, updates);
     tcase_add_test(t, empty_networks);
     tcase_add_test(t, every_error_was_met);
     suite_add_tcase(suite, t);

@@ -88,6 +88,27 @@ AT(nlc_model_record, potential, 44);
 AT(nlc_model_record, self_term, 48);
 AT(nlc_model_record, circles, 52);
 AT(nlc_model_record, cost, 56);
+
+#define X(field) OF(nlc_positions, field)
+SIZE(nlc_positions, 64, X(struct_size) + X(x) + X(y) + X(z) + X(stride) + X(wall_point) + X(wall_normal) + X(cell));
+AT(nlc_positions, x, 8);
+AT(nlc_positions, y, 16);
+AT(nlc_positions, z, 24);
+AT(nlc_positions, stride, 32);
+AT(nlc_positions, wall_point, 40);
+AT(nlc_positions, wall_normal, 48);
+AT(nlc_positions, cell, 56);
+
+#define L(field) OF(nlc_lists, field)
+SIZE(nlc_lists, 56, L(struct_size) + L(count) + L(particle) + L(particle_count) + L(length) + L(neighbour) + L(mask) +
+     L(reserved));
+AT(nlc_lists, count, 8);
+AT(nlc_lists, particle, 16);
+AT(nlc_lists, particle_count, 24);
+AT(nlc_lists, length, 32);
+AT(nlc_lists, neighbour, 40);
+AT(nlc_lists, mask, 48);
+AT(nlc_lists, reserved, 52);
 #endif
 
 VALUE(sizeof(nlc_status), 4);
@@ -108,6 +129,7 @@ VALUE(NLC_ERROR_NULL, -1);
 VALUE(NLC_ERROR_RANGE, -28);
 VALUE(NLC_ERROR_UNSTABLE, -29);
 VALUE(NLC_ERROR_SLIDING, -30);
+VALUE(NLC_ERROR_CAPACITY, -34);
 VALUE(NLC_WARNING_CLOSE, 1);
 VALUE(NLC_WARNING_ROUNDING, 2);
 VALUE(NLC_WARNING_WEAKENED, 4);
@@ -158,4 +180,4 @@ names=$(sed -n 's/^NLC_API .*[ *]\(nlc_[a-z0-9_]*\)(.*/\1/p' "$S/include/nlconta
 $CXX ${CFLAGS-} -std=c++11 -I"$S/include" -o "$tmp/all" "$tmp/all.cc" "$B/libnlcontact.a" ${LDFLAGS-} -lm ||
     fail "a C++ program with every function in it does not link"
 ${EMULATOR-} "$tmp/all" || fail "a C++ program computes something else"
-echo "test_header: $compiled compilations, 5 structs, a C++ program: ok"
+echo "test_header: $compiled compilations, 7 structs, a C++ program: ok"

@@ -125,6 +125,10 @@ START_TEST(values_are_for_good)
     ck_assert_int_eq(NLC_ERROR_RANGE, -28);
     ck_assert_int_eq(NLC_ERROR_UNSTABLE, -29);
     ck_assert_int_eq(NLC_ERROR_SLIDING, -30);
+    ck_assert_int_eq(NLC_ERROR_POSITION, -31);
+    ck_assert_int_eq(NLC_ERROR_SAME_PLACE, -32);
+    ck_assert_int_eq(NLC_ERROR_CELL, -33);
+    ck_assert_int_eq(NLC_ERROR_CAPACITY, -34);
 }
 END_TEST
 
