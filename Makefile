@@ -24,6 +24,9 @@ endif
 ifeq ($(origin CXX),default)
 CXX := $(CROSS_COMPILE)g++
 endif
+ifeq ($(origin FC),default)
+FC := $(CROSS_COMPILE)gfortran
+endif
 ifeq ($(origin AR),default)
 AR := $(CROSS_COMPILE)ar
 endif
@@ -32,6 +35,8 @@ EMULATOR ?=
 
 # The user's CFLAGS come last.  WARNINGS=-Werror... is CI's affair.
 CFLAGS ?= -O3 -g
+CXXFLAGS ?= -O2 -g
+FFLAGS ?= -O2 -g
 WARNINGS ?= -Wall -Wextra
 ALL_CPPFLAGS = -I$(S)/include $(CPPFLAGS)
 ALL_CFLAGS = -std=c11 $(WARNINGS) -ffile-prefix-map=$(S)/= $(CFLAGS)
@@ -50,7 +55,7 @@ SHARED := $(B)/libnlcontact.so.$(VERSION)
 PC := $(B)/nlcontact.pc
 MAN := $(sort $(wildcard $(S)/man/*.3))
 
-.PHONY: all help lib demo bench accuracy figures packing check stress setup install uninstall dist clean FORCE
+.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist clean FORCE
 all: lib packing ## build the libraries and the packing program
 lib: $(STATIC) $(SHARED) ## build the static and the shared library
 
@@ -115,6 +120,16 @@ figures: $(FIGURES) ## the figures of Gonzalez and Cuitino (2012) as pictures an
 		for f in $(B)/figures/*.svg; do rsvg-convert -o "$${f%.svg}.png" "$$f" || exit 1; done; \
 	else echo 'no rsvg-convert: no PNG pictures, only SVG'; fi
 
+# ---- other languages; Fortran only where there is a compiler
+EXAMPLES := $(B)/examples/packing-c++ $(if $(shell command -v $(FC) 2>/dev/null),$(B)/examples/packing-fortran)
+$(B)/examples/packing-c++: $(S)/examples/packing.cc $(S)/examples/nlcontact.hpp $(S)/include/nlcontact.h $(STATIC)
+	@mkdir -p $(@D)
+	$(CXX) -std=c++11 -I$(S)/include $(CPPFLAGS) $(WARNINGS) $(CXXFLAGS) $(LDFLAGS) -o $@ $(filter %.cc %.a,$^) $(LIBS)
+$(B)/examples/packing-fortran: $(S)/include/nlcontact.f90 $(S)/examples/packing.f90 $(STATIC)
+	@mkdir -p $(@D)
+	$(FC) -J$(@D) $(WARNINGS) $(FFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
+examples: $(EXAMPLES) ## the packing in C++ and, with a compiler for it, in Fortran; Python needs no building
+
 # ---- tests
 TEST_SRC := $(sort $(wildcard $(S)/tests/test_*.c))
 TEST_COMMON := $(patsubst $(S)/%.c,$(B)/%.o,$(filter-out $(TEST_SRC),$(sort $(wildcard $(S)/tests/*.c))))
@@ -131,7 +146,7 @@ $(B)/tests/%: $(B)/tests/%.o $(TEST_COMMON) $(BENCH_COMMON) $(STATIC)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK_LIBS) $(LIBS)
 
 check: lib packing $(B)/bench/accuracy $(FIGURES) $(TESTS) ## build and run every test (needs what `make setup` installs)
-	@S='$(abspath $(S))' B='$(abspath $(B))' CC='$(CC)' CXX='$(CXX)' MAKE='$(MAKE)' EMULATOR='$(EMULATOR)' \
+	@S='$(abspath $(S))' B='$(abspath $(B))' CC='$(CC)' CXX='$(CXX)' FC='$(FC)' MAKE='$(MAKE)' EMULATOR='$(EMULATOR)' \
 		PKG_CONFIG='$(PKG_CONFIG)' VERSION='$(VERSION)' sh $(S)/tests/run $(abspath $(TESTS) $(TEST_SCRIPTS))
 
 stress: $(B)/tests/test_stress ## the solver on its whole grid of scenes, with a table; a few minutes
@@ -141,9 +156,9 @@ setup: ## install what the tests need with the system's package manager
 	@sh $(S)/tests/setup
 
 # ---- installation
-install: lib $(PC) ## install headers, libraries, man pages and nlcontact.pc below DESTDIR and PREFIX
+install: lib $(PC) ## install header, Fortran module, libraries, man pages and nlcontact.pc below DESTDIR and PREFIX
 	$(INSTALL) -d $(DESTDIR)$(includedir) $(DESTDIR)$(libdir)/pkgconfig $(DESTDIR)$(mandir)/man3
-	$(INSTALL) -m 644 $(S)/include/nlcontact.h $(DESTDIR)$(includedir)/
+	$(INSTALL) -m 644 $(S)/include/nlcontact.h $(S)/include/nlcontact.f90 $(DESTDIR)$(includedir)/
 	$(INSTALL) -m 644 $(STATIC) $(DESTDIR)$(libdir)/
 	$(INSTALL) -m 755 $(SHARED) $(DESTDIR)$(libdir)/
 	ln -sf $(notdir $(SHARED)) $(DESTDIR)$(libdir)/$(SONAME)
@@ -152,12 +167,12 @@ install: lib $(PC) ## install headers, libraries, man pages and nlcontact.pc bel
 	$(INSTALL) -m 644 $(MAN) $(DESTDIR)$(mandir)/man3/
 
 uninstall: ## remove what install put there
-	rm -f $(DESTDIR)$(includedir)/nlcontact.h $(DESTDIR)$(libdir)/libnlcontact.a $(DESTDIR)$(libdir)/libnlcontact.so \
+	rm -f $(DESTDIR)$(includedir)/nlcontact.h $(DESTDIR)$(includedir)/nlcontact.f90 $(DESTDIR)$(libdir)/libnlcontact.a $(DESTDIR)$(libdir)/libnlcontact.so \
 		$(DESTDIR)$(libdir)/$(SONAME) $(DESTDIR)$(libdir)/$(notdir $(SHARED)) $(DESTDIR)$(libdir)/pkgconfig/nlcontact.pc \
 		$(foreach m,$(notdir $(MAN)),$(DESTDIR)$(mandir)/man3/$(m))
 
 DISTNAME := nlcontact-$(VERSION)
-DIST_FILES = Makefile README COPYING nlcontact.pc.in include lib tests bench man tools
+DIST_FILES = Makefile README COPYING nlcontact.pc.in include lib tests bench man tools examples
 dist: ## make a source archive, the same bytes every time
 	@mkdir -p $(B)
 	cd $(S) && tar --sort=name --owner=0 --group=0 --numeric-owner --mode=u+rw,go=rX --mtime=@0 --format=gnu \

@@ -34,6 +34,7 @@ cp "$tmp/program.c" "$tmp/program.cc"
 home=$tmp/home
 run_make -j2 install DESTDIR= PREFIX="$home"
 {
+    echo include/nlcontact.f90
     echo include/nlcontact.h
     for name in libnlcontact.a libnlcontact.so libnlcontact.so.0 libnlcontact.so."$VERSION" pkgconfig/nlcontact.pc; do
         echo "lib/$name"
