@@ -41,7 +41,7 @@ class Info(_Struct):
     _fields_ = [('struct_size', c_size_t), ('culprit', c_int64), ('sweeps', c_int64), ('residual', c_double),
                 ('worst_contact', c_int64), ('active', c_int64), ('lambda_lower', c_double), ('lambda_upper', c_double),
                 ('critical_particle', c_int64), ('coupling', c_double), ('weakest_particle', c_int64), ('weakened', c_int64),
-                ('blocks', c_int64), ('left_out', c_int64), ('clusters', c_int64)]
+                ('blocks', c_int64), ('left_out', c_int64), ('clusters', c_int64), ('settled', c_int64)]
 
 
 def address(array, dtype=numpy.float64):

@@ -42,10 +42,11 @@ module nlcontact
     integer(c_int32_t), parameter :: NLC_ERROR_COINCIDENT = -27
     integer(c_int32_t), parameter :: NLC_ERROR_RANGE = -28
     integer(c_int32_t), parameter :: NLC_ERROR_UNSTABLE = -29
-    integer(c_int32_t), parameter :: NLC_ERROR_POSITION = -35
-    integer(c_int32_t), parameter :: NLC_ERROR_SAME_PLACE = -36
-    integer(c_int32_t), parameter :: NLC_ERROR_CELL = -37
-    integer(c_int32_t), parameter :: NLC_ERROR_CAPACITY = -38
+    integer(c_int32_t), parameter :: NLC_ERROR_SLIDING = -30
+    integer(c_int32_t), parameter :: NLC_ERROR_POSITION = -31
+    integer(c_int32_t), parameter :: NLC_ERROR_SAME_PLACE = -32
+    integer(c_int32_t), parameter :: NLC_ERROR_CELL = -33
+    integer(c_int32_t), parameter :: NLC_ERROR_CAPACITY = -34
     integer(c_int32_t), parameter :: NLC_WARNING_CLOSE = 1
     integer(c_int32_t), parameter :: NLC_WARNING_ROUNDING = 2
     integer(c_int32_t), parameter :: NLC_WARNING_WEAKENED = 4
@@ -95,7 +96,7 @@ module nlcontact
     end type
 
     type, bind(c) :: nlc_info
-        integer(c_size_t) :: struct_size = 120
+        integer(c_size_t) :: struct_size = 128
         integer(c_int64_t) :: culprit = 0
         integer(c_int64_t) :: sweeps = 0
         real(c_double) :: residual = 0
@@ -110,6 +111,20 @@ module nlcontact
         integer(c_int64_t) :: blocks = 0
         integer(c_int64_t) :: left_out = 0
         integer(c_int64_t) :: clusters = 0
+        integer(c_int64_t) :: settled = 0
+    end type
+
+    type, bind(c) :: nlc_model_record
+        integer(c_size_t) :: struct_size = 64
+        type(c_ptr) :: name = c_null_ptr
+        type(c_ptr) :: reference = c_null_ptr
+        type(c_ptr) :: doi = c_null_ptr
+        type(c_ptr) :: validity = c_null_ptr
+        integer(c_int32_t) :: symmetric = 0
+        integer(c_int32_t) :: potential = 0
+        integer(c_int32_t) :: self_term = 0
+        integer(c_int32_t) :: circles = 0
+        real(c_double) :: cost = 0
     end type
 
     type, bind(c) :: nlc_positions
@@ -264,6 +279,25 @@ module nlcontact
             real(c_double), value :: force, theta, R, E, nu
         end function
 
+        function nlc_model_count() bind(c)
+            import
+            integer(c_int32_t) :: nlc_model_count
+        end function
+
+        function nlc_model_info(model, record, info) bind(c)
+            import
+            integer(c_int32_t) :: nlc_model_info
+            integer(c_int32_t), value :: model
+            type(nlc_model_record), intent(inout) :: record
+            type(nlc_info), intent(inout), optional :: info
+        end function
+
+        function nlc_model_find(name) bind(c)
+            import
+            integer(c_int32_t) :: nlc_model_find
+            character(kind=c_char), intent(in) :: name(*)
+        end function
+
         function nlc_network_size(particles, contact_count, options) bind(c)
             import
             integer(c_size_t) :: nlc_network_size
@@ -366,6 +400,23 @@ module nlcontact
             integer(c_intptr_t), value :: total_force_stride
             real(c_double), intent(inout), optional :: wall_force(*)
             real(c_double), intent(in) :: force(*), normal(*)
+            type(nlc_info), intent(inout), optional :: info
+        end function
+
+        function nlc_assemble_sliding(network, total_force, total_force_stride, torque, torque_stride, wall_force, &
+                force, normal, sliding, displacement, overlap, friction, info) bind(c)
+            import
+            integer(c_int32_t) :: nlc_assemble_sliding
+            type(c_ptr), value :: network
+            real(c_double), intent(inout) :: total_force(*)
+            integer(c_intptr_t), value :: total_force_stride
+            real(c_double), intent(inout) :: torque(*)
+            integer(c_intptr_t), value :: torque_stride
+            real(c_double), intent(inout), optional :: wall_force(*)
+            real(c_double), intent(in) :: force(*), normal(*), sliding(*)
+            real(c_double), intent(in), optional :: displacement(*)
+            real(c_double), intent(in) :: overlap(*)
+            real(c_double), value :: friction
             type(nlc_info), intent(inout), optional :: info
         end function
 
