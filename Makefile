@@ -47,7 +47,7 @@ LIBS := -lm
 # The shared library is linked with all it needs; sanitized ones get it from the program.
 NO_UNDEFINED ?= -Wl,-z,defs
 
-LIB_SRC := $(sort $(wildcard $(S)/lib/*.c))
+LIB_SRC := $(sort $(wildcard $(S)/lib/*.c $(S)/lib/*/*.c))
 LIB_OBJ := $(LIB_SRC:$(S)/%.c=$(B)/%.o)
 STATIC := $(B)/libnlcontact.a
 SONAME := libnlcontact.so.$(SO_MAJOR)
@@ -183,4 +183,4 @@ dist: ## make a source archive, the same bytes every time
 clean: ## remove everything that was built
 	rm -rf $(B)
 
--include $(wildcard $(B)/lib/*.d $(B)/bench/*.d $(B)/bench/figures/*.d $(B)/tests/*.d)
+-include $(wildcard $(B)/lib/*.d $(B)/lib/*/*.d $(B)/bench/*.d $(B)/bench/figures/*.d $(B)/tests/*.d)

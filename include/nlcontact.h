@@ -478,10 +478,18 @@ enum {
     NLC_METHOD_FIXED_POINT = 1 /* [GC] Algorithm 1 with its erratum mended */
 };
 
-/* Which variant of the inner loops is used.  Results differ by rounding only. */
+/*
+ * Which variant of the inner loops is used.  Only NLC_MODEL_GONZALEZ_CUITINO and NLC_MODEL_HALF_SPACE at NLC_POINTS_UNDEFORMED have
+ * others than portable C.  Results differ by rounding only: displacements on a particle with Z contacts by at most 2 Z 2^-53 of the
+ * sum of their absolute terms.  Where the processor, its operating system or the compiler of the library lacks the one asked for,
+ * the next lower one is used, portable C in the end.
+ */
 enum {
-    NLC_SIMD_BEST = 0,   /* the best that this processor has */
-    NLC_SIMD_GENERIC = 1 /* portable C */
+    NLC_SIMD_BEST = 0,    /* the best that this processor has */
+    NLC_SIMD_GENERIC = 1, /* portable C */
+    NLC_SIMD_AVX2 = 2,    /* x86-64 with AVX2 and FMA */
+    NLC_SIMD_AVX512 = 3,  /* x86-64 with AVX-512F */
+    NLC_SIMD_NEON = 4     /* AArch64 */
 };
 
 /* Options of a network.  0 is the default of every field; a NULL pointer to options means all defaults. */

@@ -14,12 +14,14 @@
 #include "nlcontact.h"
 #include "number.h"
 #include "small.h"
+#include "variant.h"
 
 #define NLC_NETWORK_MAGIC UINT64_C(0x4e4c434f4e544331) /* NLCONTC1 */
 
 /* Options, checked and with the defaults filled in. */
 typedef struct nlc_settings {
     const nlc_model *model;
+    const nlc_variant *variant; /* NULL: the portable code */
     int32_t number, method, simd, reserved; /* number: of the model */
     double tolerance, prefactor;
     int64_t max_sweeps;

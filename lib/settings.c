@@ -26,12 +26,13 @@ nlc_status nlc_read_settings(nlc_settings *settings, const nlc_options *o, int64
     *culprit = offsetof(nlc_options, prefactor);
     if (!is_finite_nonnegative(o->prefactor)) return NLC_ERROR_OPTION;
     *culprit = offsetof(nlc_options, simd);
-    if (o->simd != NLC_SIMD_BEST && o->simd != NLC_SIMD_GENERIC) return NLC_ERROR_OPTION;
+    if (o->simd < NLC_SIMD_BEST || o->simd > NLC_SIMD_NEON) return NLC_ERROR_OPTION;
     *culprit = offsetof(nlc_options, points);
     if (o->points != NLC_POINTS_DEFORMED && o->points != NLC_POINTS_UNDEFORMED) return NLC_ERROR_OPTION;
     *culprit = -1;
     const bool undeformed = o->model == NLC_MODEL_HALF_SPACE && o->points == NLC_POINTS_UNDEFORMED;
     settings->model = undeformed ? &nlc_half_space_undeformed : &nlc_models[o->model];
+    settings->variant = nlc_choose_variant(o->simd);
     settings->number = o->model;
     settings->reserved = 0;
     settings->method = o->method;

@@ -132,18 +132,24 @@ static bool in_range(const nlc_network *n, const double *force, const double *no
     return e + 512 <= 1020 || e + closeness(n, normal) <= 1020;
 }
 
+/* The first particle with two contacts in the same direction, or -1. */
+static int64_t displace_all(nlc_network *n, nlc_response response, const double *force, const double *normal)
+{
+    for (int64_t k = 0; k < n->particle_count; k++)
+        if (!nlc_displace_particle(n, response, force, normal, k)) return k;
+    return -1;
+}
+
 nlc_status nlc_displace(nlc_network *network, nlc_response response, const double *force, const double *normal, int64_t *culprit)
 {
     const nlc_shape shape = network->settings.model->shape;
     *culprit = -1;
     if (network->settings.model->within && !in_range(network, force, normal)) return NLC_ERROR_RANGE;
     if (response <= NLC_OF_STATE && (shape == NLC_SHAPE_MOMENTS || shape == NLC_SHAPE_RADIUS)) nlc_set_approach(network, force);
-    for (int64_t k = 0; k < network->particle_count; k++)
-        if (!nlc_displace_particle(network, response, force, normal, k)) {
-            *culprit = nlc_find_coincident(network, normal, k);
-            return NLC_ERROR_COINCIDENT;
-        }
-    return NLC_OK;
+    const nlc_variant *variant = network->settings.model->within == nlc_case_one_within ? network->settings.variant : NULL;
+    const int64_t bad = variant ? variant->displace(network, force, normal) : displace_all(network, response, force, normal);
+    if (bad >= 0) *culprit = nlc_find_coincident(network, normal, bad);
+    return bad >= 0 ? NLC_ERROR_COINCIDENT : NLC_OK;
 }
 
 nlc_status nlc_sweep(nlc_network *network, double *NLC_RESTRICT displacement, const double *NLC_RESTRICT force,

@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * lanes.h - sweeps of Case I (boussinesq_block.c) with a particle in each lane of a vector.  A template, included by one file per
+ * instruction set.
+ *
+ * LANES particles are done at once: a pair of places in their lists is one piece of straight code, each pair of contacts is looked
+ * at once, nothing is summed across lanes, and what a lane computes does not depend on the particles beside it.  To have about as
+ * many contacts in all lanes, the particles of a window are sorted by their number of contacts.  Shorter lists are filled up with
+ * contacts without force, inside the sphere and apart from each other, so that no arithmetic needs a mask.
+ *
+ * 1/sqrt(t) is an estimate y of the instruction set and one step of the series y (1-e)^(-1/2), e = 1 - t y^2: the relative error is
+ * below 2^-51.8.  A particle with two directions closer than 2^-23 is done again by the portable code, which knows what is too
+ * close: here t needs neither a test nor care for its range.  So is one with contacts with itself, whose two sides have an order
+ * of their own, and one with more contacts than a block holds.
+ *
+ * Measured against long double: displacements are wrong by at most Z 2^-53 times the sum of the absolute terms, Z contacts.
+ *
+ * The including file defines
+ *     LANES     particles in a vector
+ *     TARGET    attributes of functions that may use the instructions
+ *     VARIANT   the row of the table, see variant.h
+ *     TERMS     of the series
+ * the types vec, ints, mask: LANES doubles, int64_t, truth values; and
+ *     set, load, store, sub, mul, min, max, magnitude; muladd: ab + c; nmuladd: c - ab, both rounded once
+ *     estimate: 1/sqrt(t) for 2^-101 < t < 64
+ *     iset, iload, iadd; half: e >> 1; above: a > b; turn: -v where e is odd
+ *     gather, igather: elements of an array where the mask is set, else what is given, or 0
+ * The memory of load, store and iload is aligned to whole vectors.
+ */
+#include "network.h"
+
+#define WINDOW 512
+#define NEAR 0x1p-46  /* squared distance that is left to the portable code */
+#define TINY 0x1p-100 /* keeps t from 0; too small to change a t from NEAR on */
+#define FAR 20000     /* of so few contacts everything is in the second cache: to fetch it ahead would cost more than it saves */
+
+/* What is known of one contact of each of the particles. */
+typedef struct place {
+    _Alignas(8 * LANES) double x[LANES], y[LANES], z[LANES]; /* outward unit normal */
+    double force[LANES];                                     /* times U */
+    double displacement[LANES];
+} place;
+
+typedef struct group {
+    place at[NLC_BLOCK];
+    _Alignas(8 * LANES) int64_t begin[LANES], count[LANES]; /* of the particle's list; 0: no particle */
+    int64_t places, particle[LANES];                        /* places: the largest count */
+    _Alignas(8 * LANES) double scale[LANES], c0[LANES], c1[LANES], c2[LANES];
+    double largest[LANES], closest[LANES]; /* |force|; squared distance */
+} group;
+
+static void choose(group *g, const nlc_network *n, const int32_t *particle, int count)
+{
+    g->places = 0;
+    for (int l = 0; l < LANES; l++) {
+        const int64_t k = particle[l < count ? l : 0];
+        const nlc_kernel *kernel = nlc_kernel_of(n, k);
+        g->particle[l] = k;
+        g->begin[l] = n->start[k];
+        g->count[l] = l < count ? n->start[k + 1] - n->start[k] : 0;
+        g->places = g->count[l] > g->places ? g->count[l] : g->places;
+        g->scale[l] = nlc_scale_of(n, k);
+        g->c0[l] = kernel->c[0];
+        g->c1[l] = kernel->c[1];
+        g->c2[l] = kernel->c[2];
+    }
+}
+
+TARGET static void fill(group *g, const nlc_network *n, const double *force, const double *normal)
+{
+    const ints count = iload(g->count), begin = iload(g->begin);
+    const vec scale = load(g->scale);
+    vec largest = set(0);
+    for (int64_t d = 0; d < g->places; d++) {
+        place *at = &g->at[d];
+        const mask m = above(count, iset(d));
+        const ints e = igather(m, n->entry, iadd(begin, iset(d))), c = half(e), c3 = iadd(c, iadd(c, c));
+        const vec f = gather(set(0), m, force, c);
+        store(at->x, turn(gather(set((double)d / 256), m, normal, c3), e));
+        store(at->y, turn(gather(set(0), m, normal + 1, c3), e));
+        store(at->z, turn(gather(set(0), m, normal + 2, c3), e));
+        store(at->force, mul(scale, f));
+        store(at->displacement, set(0));
+        largest = max(largest, magnitude(f));
+    }
+    store(g->largest, largest);
+}
+
+/*
+ * What the next group will want at one place of its lists, while this one is computed: without it the processor waits for memory
+ * first and computes then.  Always inlined, for gcc takes a function that does no more than this for one without effect.
+ */
+__attribute__((always_inline)) TARGET static inline void fetch(const nlc_network *n, const double *force, const double *normal,
+                                                               const int32_t *particle, int64_t d)
+{
+    for (int l = 0; l < LANES; l++) {
+        const int64_t p = n->start[particle[l]] + d;
+        if (p >= n->start[particle[l] + 1]) continue;
+        const int64_t e = n->entry[p], c = e >> 1;
+        __builtin_prefetch(normal + 3 * c + 1);
+        __builtin_prefetch(force + c);
+        __builtin_prefetch(n->side + e, 1);
+    }
+}
+
+TARGET static inline vec reciprocal_root(vec t)
+{
+    const vec y = estimate(t), e = nmuladd(mul(t, y), y, set(1));
+    vec s = set(5. / 16);
+    if (TERMS > 3) s = muladd(set(35. / 128), e, s);
+    s = muladd(muladd(s, e, set(3. / 8)), e, set(0.5));
+    return muladd(mul(s, e), y, y);
+}
+
+/* All pairs.  next: the particles of the next group, or NULL. */
+TARGET static void couple(group *g, const nlc_network *n, const double *from, const double *normal, const int32_t *next)
+{
+    const vec c0 = load(g->c0), c1 = load(g->c1), c2 = load(g->c2);
+    vec closest = set(4);
+    for (int64_t c = 0; c < g->places; c++) {
+        place *a = &g->at[c];
+        const vec x = load(a->x), y = load(a->y), z = load(a->z), force = load(a->force);
+        vec sum = set(0);
+        if (next) fetch(n, from, normal, next, c);
+        for (place *b = g->at; b < a; b++) {
+            const vec dx = sub(x, load(b->x)), dy = sub(y, load(b->y)), dz = sub(z, load(b->z));
+            const vec t = muladd(dz, dz, muladd(dy, dy, muladd(dx, dx, set(TINY))));
+            const vec k = muladd(reciprocal_root(t), muladd(c2, t, c0), c1);
+            closest = min(closest, t);
+            sum = muladd(k, load(b->force), sum);
+            store(b->displacement, muladd(k, force, load(b->displacement)));
+        }
+        store(a->displacement, sum);
+    }
+    store(g->closest, closest);
+}
+
+/* Hands the results out; returns the first particle with two contacts in the same direction, or -1. */
+static int64_t empty(const group *g, nlc_network *n, const double *force, const double *normal)
+{
+    int64_t bad = -1;
+    for (int l = 0; l < LANES && g->count[l] > 0; l++) {
+        const int64_t *entry = n->entry + g->begin[l], k = g->particle[l];
+        for (int64_t d = 0; d < g->count[l]; d++) n->side[entry[d]] = g->at[d].displacement[l];
+        n->largest[k] = g->largest[l];
+        if (g->closest[l] < NEAR && !nlc_displace_particle(n, NLC_OF_FORCES, force, normal, k) && (bad < 0 || k < bad)) bad = k;
+    }
+    return bad;
+}
+
+/* A particle's number of contacts, or 0 if it is left to the portable code. */
+static int length_of(const nlc_network *n, int64_t k)
+{
+    const int64_t begin = n->start[k], end = n->start[k + 1];
+    if (end - begin > NLC_BLOCK || n->scale[k] == 0) return 0;
+    for (int64_t p = begin; p < end && n->self_contacts; p++)
+        if (n->i[n->entry[p] >> 1] == n->j[n->entry[p] >> 1]) return 0;
+    return (int)(end - begin);
+}
+
+/* The particles from first to end: those done here come first, by falling number of contacts.  Returns how many they are. */
+static int sort(int32_t *sorted, const nlc_network *n, int64_t first, int64_t end)
+{
+    int at[NLC_BLOCK + 1] = {0}, total = 0;
+    unsigned char length[WINDOW];
+    for (int64_t k = first; k < end; k++) at[length[k - first] = (unsigned char)length_of(n, k)]++;
+    for (int z = NLC_BLOCK; z >= 0; z--) {
+        const int count = at[z];
+        at[z] = total;
+        total += count;
+    }
+    const int done_here = at[0];
+    for (int64_t k = first; k < end; k++) sorted[at[length[k - first]]++] = (int32_t)k;
+    return done_here;
+}
+
+static int64_t displace_window(nlc_network *n, const double *force, const double *normal, int64_t first, int64_t end)
+{
+    group g;
+    int32_t sorted[WINDOW];
+    const int count = sort(sorted, n, first, end), all = (int)(end - first);
+    int64_t bad = -1;
+    for (int q = 0; q < count; q += LANES) {
+        const bool ahead = n->contact_count > FAR && q + 2 * LANES <= all;
+        choose(&g, n, sorted + q, count - q < LANES ? count - q : LANES);
+        fill(&g, n, force, normal);
+        couple(&g, n, force, normal, ahead ? sorted + q + LANES : NULL);
+        const int64_t k = empty(&g, n, force, normal);
+        if (k >= 0 && (bad < 0 || k < bad)) bad = k;
+    }
+    for (int q = count; q < all; q++) {
+        const int64_t k = sorted[q];
+        if (!nlc_displace_particle(n, NLC_OF_FORCES, force, normal, k) && (bad < 0 || k < bad)) bad = k;
+    }
+    return bad;
+}
+
+static int64_t displace(nlc_network *n, const double *force, const double *normal)
+{
+    int64_t bad = -1;
+    for (int64_t w = 0; w < n->particle_count && bad < 0; w += WINDOW)
+        bad = displace_window(n, force, normal, w, n->particle_count - w > WINDOW ? w + WINDOW : n->particle_count);
+    return bad;
+}
+
+const nlc_variant VARIANT = {displace};

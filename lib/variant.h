@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * variant.h - the inner loops for processors of one kind: a row of a table.
+ *
+ * The portable code needs none and is NULL.  The row is chosen when options are read and kept in the network's settings.
+ */
+#ifndef NLC_VARIANT_H
+#define NLC_VARIANT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "nlcontact.h"
+
+/* Compilers that can be told to use what not every processor has, function by function. */
+#if defined(__GNUC__) && defined(__x86_64__)
+#define NLC_HAVE_X86 1
+#elif defined(__GNUC__) && defined(__aarch64__) && defined(__ARM_NEON)
+#define NLC_HAVE_NEON 1
+#endif
+
+typedef struct nlc_variant {
+    /*
+     * nlc_displace of Case I, from the range check on.  Returns the first particle with two contacts in the same direction, or -1.
+     */
+    int64_t (*displace)(nlc_network *network, const double *force, const double *normal);
+} nlc_variant;
+
+#ifdef NLC_HAVE_X86
+extern const nlc_variant nlc_variant_avx2, nlc_variant_avx512;
+#endif
+#ifdef NLC_HAVE_NEON
+extern const nlc_variant nlc_variant_neon;
+#endif
+
+/* cpu.c: the best one that this processor has, at most the one asked for (NLC_SIMD_...); NULL: the portable code. */
+const nlc_variant *nlc_choose_variant(int32_t simd);
+
+#endif

@@ -1,0 +1,364 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* test_simd.c - the variants for processors: the same displacements as long double and the portable code, whatever the lists. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "../lib/variant.h"
+#include "scene.h"
+
+/* As the loop tests number them; what the processor lacks is some other one of them, and passes as that. */
+enum { FIRST = NLC_SIMD_BEST, LAST = NLC_SIMD_NEON + 1, MOST = 70 };
+static const char *const names[] = {"best", "generic", "avx2", "avx512", "neon"};
+
+/* Whether an option stands for code of its own here. */
+static bool is_here(int simd)
+{
+    const nlc_variant *v = nlc_choose_variant(simd);
+    return simd == NLC_SIMD_GENERIC || (v && simd != NLC_SIMD_BEST && v != nlc_choose_variant(simd == NLC_SIMD_NEON ? NLC_SIMD_GENERIC : simd - 1));
+}
+
+/* ---- memory whose ends cannot be crossed */
+
+typedef struct guarded {
+    char *pages;
+    size_t size;
+    void *at;
+} guarded;
+
+/* A copy between two pages without access: flush with the one behind it or the one before it. */
+static guarded guard(const void *data, size_t size, bool behind)
+{
+    const size_t page = (size_t)sysconf(_SC_PAGESIZE), inner = (size + page - 1) / page * page;
+    guarded g = {.size = inner + 2 * page};
+    g.pages = mmap(NULL, g.size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    ck_assert(g.pages != MAP_FAILED);
+    ck_assert_int_eq(mprotect(g.pages, page, PROT_NONE), 0);
+    ck_assert_int_eq(mprotect(g.pages + page + inner, page, PROT_NONE), 0);
+    g.at = g.pages + page + (behind ? inner - size : 0);
+    if (data) memcpy(g.at, data, size);
+    else memset(g.at, 0xff, size); /* NaN */
+    return g;
+}
+
+static void unguard(guarded g)
+{
+    ck_assert_int_eq(munmap(g.pages, g.size), 0);
+}
+
+/* The displacements of all sides, computed between guard pages; to be freed. */
+static double *sweep(const scene *s, int simd, const double *force, bool behind)
+{
+    const size_t count = (size_t)s->contacts;
+    nlc_options o = s->options;
+    o.simd = simd;
+    const nlc_particles p = scene_view(s);
+    const size_t size = nlc_network_size(&p, s->contacts, &o);
+    guarded memory = guard(NULL, size, behind), f = guard(force, count * sizeof *force, behind),
+            v = guard(s->normal, 3 * count * sizeof(double), behind), w = guard(NULL, 2 * count * sizeof(double), behind);
+    nlc_network *n;
+    ck_assert_int_eq(nlc_network_init(&n, memory.at, size, &p, s->i, s->j, s->contacts, &o, 0), NLC_OK);
+    nlc_assert_quiet(ck_assert_int_eq(nlc_sweep(n, w.at, f.at, 0, v.at, 0), NLC_OK));
+    double *out = malloc(2 * count * sizeof *out);
+    ck_assert_ptr_nonnull(out);
+    memcpy(out, w.at, 2 * count * sizeof *out);
+    unguard(memory), unguard(f), unguard(v), unguard(w);
+    return out;
+}
+
+/* ---- scenes */
+
+/* Spheres of several materials with so many contacts each, all of them with small spheres that have no other contact. */
+static void stars(scene *s, rng *g, int spheres, int least, int most)
+{
+    scene_init(s);
+    const int32_t a = scene_material(s, 1e9, 0.45), b = scene_material(s, 3e8, 0.1), rigid = scene_material(s, INFINITY, 0.3);
+    for (int k = 0; k < spheres; k++) {
+        const int32_t centre = scene_particle(s, rng_uniform(g, 0.5, 2), k % 3 ? a : b);
+        const int count = least + (int)rng_below(g, (uint64_t)(most - least + 1));
+        for (int c = 0; c < count; c++) {
+            const int32_t other = scene_particle(s, 0.1, c % 5 ? a : rigid);
+            double n[3];
+            rng_unit(g, n);
+            const bool reverse = rng_below(g, 2);
+            scene_contact(s, reverse ? other : centre, reverse ? centre : other, 0.01, n[0], n[1], n[2]);
+        }
+    }
+}
+
+static double *random_forces(const scene *s, rng *g)
+{
+    double *force = malloc(((size_t)s->contacts + 1) * sizeof *force);
+    ck_assert_ptr_nonnull(force);
+    for (int64_t c = 0; c < s->contacts; c++) force[c] = rng_below(g, 8) ? rng_uniform(g, -0.3, 1) * 1e4 : 0;
+    return force;
+}
+
+/* ---- what is right */
+
+/* Where a side's displacement comes from, in long double: [GC] 5 as in boussinesq_block.c, and the sum of the absolute terms. */
+static long double exact_side(const scene *s, const double *force, int64_t e, int *count, long double *size)
+{
+    const int64_t c = e >> 1;
+    const int32_t k = e & 1 ? s->j[c] : s->i[c];
+    const nlc_material m = s->rows[s->material[k]];
+    const long double U = isinf(m.young) ? 0 : (1 + (long double)m.poisson) / (4 * acosl(-1) * s->radius[k] * m.young);
+    const long double c0 = -4 * (1 - (long double)m.poisson), c1 = -2 * (1 - 2 * (long double)m.poisson), c2 = (7 - 8 * (long double)m.poisson) / 2;
+    long double sum = 0;
+    *count = 0;
+    *size = 0;
+    for (int64_t d = 0; d < s->contacts; d++)
+        for (int side = 0; side < 2; side++) {
+            if ((side ? s->j[d] : s->i[d]) != k) continue;
+            ++*count;
+            if (2 * d + side == e) continue;
+            long double t = 0;
+            for (int x = 0; x < 3; x++) {
+                const long double v = (e & 1 ? -1 : 1) * (long double)s->normal[3 * c + x] - (side ? -1 : 1) * (long double)s->normal[3 * d + x];
+                t += v * v;
+            }
+            const long double r = 1 / sqrtl(t), f = U * force[d];
+            sum += (c0 * r + c1 + c2 * t * r) * f;
+            *size += (fabsl(c0) * r + fabsl(c1) + c2 * t * r) * fabsl(f);
+        }
+    return sum;
+}
+
+/* Largest error of a side in units of 2^-53 times its absolute terms, less one unit for each contact. */
+static double excess(const scene *s, const double *force, const double *w)
+{
+    double most = -INFINITY;
+    for (int64_t e = 0; e < 2 * s->contacts; e++) {
+        int count;
+        long double size;
+        const long double exact = exact_side(s, force, e, &count, &size), error = fabsl(w[e] - exact);
+        ck_assert(isfinite(w[e]));
+        if (size <= 0) ck_assert(w[e] == 0);
+        else most = fmax(most, (double)(error / (size * 0x1p-53L)) - count);
+    }
+    return most;
+}
+
+/* Every number of contacts, from none to beyond a block, in vectors that are full, nearly full and nearly empty. */
+START_TEST(every_number_of_contacts)
+{
+    const int spheres[] = {1, 2, 7, 8, 9};
+    rng g = {31};
+    double worst = -INFINITY;
+    for (int z = 0; z <= MOST; z++) {
+        scene s;
+        const int some = spheres[z % 5];
+        stars(&s, &g, z < 20 ? some : some % 4 + 1, z, z);
+        if (z == 0) scene_particle(&s, 1, 0);
+        double *force = random_forces(&s, &g);
+        for (int behind = 0; behind < 2 && s.contacts > 0; behind++) {
+            double *w = sweep(&s, _i, force, behind);
+            worst = fmax(worst, excess(&s, force, w));
+            free(w);
+        }
+        free(force);
+        scene_free(&s);
+    }
+    if (verbose()) printf("%-8s error <= (Z + %.1f) 2^-53 of the terms\n", names[_i], worst);
+    ck_assert(worst <= 1); /* found: -0.8, with few contacts; roundings of long sums cancel in part */
+}
+END_TEST
+
+/* Lists of all lengths in one network of more than a window; a lane's result does not depend on its neighbours. */
+START_TEST(lists_of_all_lengths)
+{
+    rng g = {32};
+    scene s;
+    stars(&s, &g, 60, 0, MOST);
+    double *force = random_forces(&s, &g), *w = sweep(&s, _i, force, true), *v = sweep(&s, NLC_SIMD_GENERIC, force, false);
+    ck_assert_int_gt(s.particles, 1500);
+    ck_assert(excess(&s, force, w) <= 1);
+    int64_t other = 0;
+    for (int64_t e = 0; e < 2 * s.contacts; e++) other += w[e] != v[e];
+    ck_assert(is_here(_i) && _i != NLC_SIMD_GENERIC ? other > s.contacts / 2 : _i == NLC_SIMD_BEST || other == 0 || !is_here(_i));
+    const nlc_variant *same = nlc_choose_variant(_i);
+    for (int simd = FIRST; simd < LAST; simd++) { /* features masked: the bits of the variant that is left */
+        double *x = sweep(&s, simd, force, true);
+        if (nlc_choose_variant(simd) == same) ck_assert_int_eq(memcmp(x, w, 2 * (size_t)s.contacts * sizeof *x), 0);
+        free(x);
+    }
+    /* particles in another order: not a bit */
+    int32_t *at = malloc((size_t)s.particles * sizeof *at);
+    for (int32_t k = 0; k < s.particles; k++) at[k] = k;
+    for (int64_t k = s.particles - 1; k > 0; k--) {
+        const int64_t d = (int64_t)rng_below(&g, (uint64_t)k + 1);
+        const int32_t t = at[k], m = s.material[k];
+        const double r = s.radius[k];
+        at[k] = at[d], at[d] = t;
+        s.material[k] = s.material[d], s.material[d] = m;
+        s.radius[k] = s.radius[d], s.radius[d] = r;
+    }
+    int32_t *where = malloc((size_t)s.particles * sizeof *where);
+    for (int32_t k = 0; k < s.particles; k++) where[at[k]] = k;
+    for (int64_t c = 0; c < s.contacts; c++) s.i[c] = where[s.i[c]], s.j[c] = where[s.j[c]];
+    double *x = sweep(&s, _i, force, true);
+    for (int64_t e = 0; e < 2 * s.contacts; e++) nlc_assert_same(x[e], w[e]);
+    free(x), free(w), free(v), free(force), free(at), free(where);
+    scene_free(&s);
+}
+END_TEST
+
+/* Exchange i and j of random contacts, of a particle with itself too, with the normal reversed: the same bits on the other side. */
+START_TEST(exchange_of_sides)
+{
+    rng g = {33};
+    scene s;
+    scene_init(&s);
+    const int32_t m = scene_material(&s, 1e9, 0.4);
+    for (int k = 0; k < 30; k++) scene_particle(&s, rng_uniform(&g, 0.5, 2), m);
+    for (int c = 0; c < 250; c++) {
+        double n[3];
+        rng_unit(&g, n);
+        const int32_t i = (int32_t)rng_below(&g, 30);
+        scene_contact(&s, i, i < 5 && c % 4 == 0 ? i : (int32_t)rng_below(&g, 30), 0.01, n[0], n[1], n[2]);
+    }
+    double *force = random_forces(&s, &g), *w = sweep(&s, _i, force, true);
+    ck_assert(excess(&s, force, w) <= 1);
+    for (int turn = 0; turn < 4; turn++) {
+        unsigned char swapped[250];
+        for (int64_t c = 0; c < 250; c++) {
+            if (!(swapped[c] = (unsigned char)rng_below(&g, 2))) continue;
+            const int32_t t = s.i[c];
+            s.i[c] = s.j[c];
+            s.j[c] = t;
+            for (int x = 0; x < 3; x++) s.normal[3 * c + x] *= -1;
+        }
+        double *v = sweep(&s, _i, force, turn % 2);
+        for (int64_t e = 0; e < 500; e++) nlc_assert_same(v[swapped[e >> 1] ? e ^ 1 : e], w[e]);
+        free(w);
+        w = v;
+    }
+    free(w), free(force);
+    scene_free(&s);
+}
+END_TEST
+
+/* The same direction twice: the contact that the portable code names, wherever in a vector or a window it is. */
+START_TEST(coincidences)
+{
+    rng g = {34};
+    for (int turn = 0; turn < 60; turn++) {
+        scene s;
+        stars(&s, &g, 40, 2, 20);
+        double *force = random_forces(&s, &g), *w = malloc(2 * (size_t)s.contacts * sizeof *w);
+        for (int times = 0; times < 1 + turn % 3; times++) {
+            const int64_t c = (int64_t)rng_below(&g, (uint64_t)s.contacts - 1), d = c + 1;
+            const int32_t k = s.radius[s.i[c]] > 0.1 ? s.i[c] : s.j[c];
+            const double sign = (s.i[c] == k) == (s.i[d] == k) ? 1 : -1;
+            for (int x = 0; x < 3; x++) s.normal[3 * d + x] = sign * s.normal[3 * c + x];
+        }
+        nlc_info info[2] = {{.struct_size = sizeof *info}, {.struct_size = sizeof *info}};
+        nlc_status status[2];
+        for (int k = 0; k < 2; k++) {
+            s.options.simd = k ? _i : NLC_SIMD_GENERIC;
+            s.network = 0;
+            ck_assert_int_eq(scene_build(&s), NLC_OK);
+            nlc_assert_quiet(status[k] = nlc_sweep(s.network, w, force, 0, s.normal, &info[k]));
+        }
+        ck_assert_int_eq(status[1], status[0]);
+        ck_assert_int_eq(info[1].culprit, info[0].culprit);
+        free(force), free(w);
+        scene_free(&s);
+    }
+}
+END_TEST
+
+/* Directions closer and closer together, down to the last bit: the portable code takes over without a step. */
+START_TEST(near_coincidences)
+{
+    rng g = {35};
+    for (int b = 1; b <= 52; b++) {
+        scene s;
+        stars(&s, &g, 9, 5, 9);
+        double *force = random_forces(&s, &g);
+        for (int64_t c = 0; c < 3; c++) { /* near (0, 0, 1), outward from the first sphere */
+            const double out = s.radius[s.i[c]] > 0.1 ? 1 : -1;
+            s.normal[3 * c] = out * (double)c * ldexp(1, -b) / 4, s.normal[3 * c + 1] = 0, s.normal[3 * c + 2] = out;
+            const double length = sqrt(1 + s.normal[3 * c] * s.normal[3 * c]);
+            for (int x = 0; x < 3; x++) s.normal[3 * c + x] /= length;
+        }
+        double *w = sweep(&s, _i, force, true);
+        ck_assert(excess(&s, force, w) <= 1);
+        free(w), free(force);
+        scene_free(&s);
+    }
+}
+END_TEST
+
+/* nlc_solve: each variant reaches the forces of long double. */
+START_TEST(solutions)
+{
+    scene s;
+    scene_init(&s);
+    scene_packing(&s, "b_die125_rd0.70.csv", 0.3);
+    s.options.simd = _i;
+    s.options.tolerance = 1e-12;
+    long double *exact = calloc((size_t)s.contacts, sizeof *exact);
+    ck_assert(scene_oracle(&s, 1, exact) < 1e-15L);
+    nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, 0), NLC_OK));
+    const double error = scene_error(&s, s.force, exact);
+    if (verbose()) printf("%-8s forces to %.1e\n", names[_i], error);
+    ck_assert(error <= 1e-12);
+    free(exact);
+    scene_free(&s);
+}
+END_TEST
+
+/* The half-space at undeformed points has the same kernel, times the prefactor. */
+START_TEST(prefactor)
+{
+    rng g = {36};
+    scene s;
+    stars(&s, &g, 20, 1, 30);
+    double *force = random_forces(&s, &g), *w = sweep(&s, _i, force, true);
+    s.options.model = NLC_MODEL_HALF_SPACE;
+    s.options.points = NLC_POINTS_UNDEFORMED;
+    s.options.prefactor = 4;
+    double *v = sweep(&s, _i, force, true);
+    for (int64_t e = 0; e < 2 * s.contacts; e++) nlc_assert_same(v[e], 4 * w[e]);
+    free(force), free(w), free(v);
+    scene_free(&s);
+}
+END_TEST
+
+START_TEST(choice)
+{
+    ck_assert_ptr_null(nlc_choose_variant(NLC_SIMD_GENERIC));
+    const nlc_variant *best = nlc_choose_variant(NLC_SIMD_BEST);
+    ck_assert(best == nlc_choose_variant(NLC_SIMD_AVX512) || best == nlc_choose_variant(NLC_SIMD_NEON));
+#if defined(__x86_64__) && defined(__GNUC__)
+    const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"), avx512 = avx2 && __builtin_cpu_supports("avx512f");
+    ck_assert(nlc_choose_variant(NLC_SIMD_AVX2) == (avx2 ? &nlc_variant_avx2 : NULL));
+    ck_assert(nlc_choose_variant(NLC_SIMD_AVX512) == (avx512 ? &nlc_variant_avx512 : nlc_choose_variant(NLC_SIMD_AVX2)));
+    ck_assert_ptr_null(nlc_choose_variant(NLC_SIMD_NEON));
+#endif
+    if (verbose())
+        for (int simd = FIRST; simd < LAST; simd++) printf("%-8s %s\n", names[simd], is_here(simd) ? "here" : "-");
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("simd");
+    TCase *t = tcase_create("simd");
+    tcase_add_checked_fixture(t, fp_trap, fp_untrap);
+    tcase_add_test(t, choice);
+    tcase_add_loop_test(t, every_number_of_contacts, FIRST, LAST);
+    tcase_add_loop_test(t, lists_of_all_lengths, FIRST, LAST);
+    tcase_add_loop_test(t, exchange_of_sides, FIRST, LAST);
+    tcase_add_loop_test(t, coincidences, FIRST, LAST);
+    tcase_add_loop_test(t, near_coincidences, FIRST, LAST);
+    tcase_add_loop_test(t, solutions, FIRST, LAST);
+    tcase_add_loop_test(t, prefactor, FIRST, LAST);
+    time_limit(t, 60);
+    suite_add_tcase(suite, t);
+    return run_suite(suite);
+}
