@@ -43,21 +43,22 @@ typedef struct place {
 
 typedef struct group {
     place at[NLC_BLOCK];
-    _Alignas(8 * LANES) int64_t begin[LANES], count[LANES]; /* of the particle's list; 0: no particle */
+    _Alignas(8 * LANES) int64_t begin[LANES], count[LANES]; /* of the particle's list */
     int64_t places, particle[LANES];                        /* places: the largest count */
     _Alignas(8 * LANES) double scale[LANES], c0[LANES], c1[LANES], c2[LANES];
     double largest[LANES], closest[LANES]; /* |force|; squared distance */
 } group;
 
+/* Where there are not enough particles the last one takes several lanes. */
 static void choose(group *g, const nlc_network *n, const int32_t *particle, int count)
 {
     g->places = 0;
     for (int l = 0; l < LANES; l++) {
-        const int64_t k = particle[l < count ? l : 0];
+        const int64_t k = particle[l < count ? l : count - 1];
         const nlc_kernel *kernel = nlc_kernel_of(n, k);
         g->particle[l] = k;
         g->begin[l] = n->start[k];
-        g->count[l] = l < count ? n->start[k + 1] - n->start[k] : 0;
+        g->count[l] = n->start[k + 1] - n->start[k];
         g->places = g->count[l] > g->places ? g->count[l] : g->places;
         g->scale[l] = nlc_scale_of(n, k);
         g->c0[l] = kernel->c[0];
@@ -139,7 +140,7 @@ TARGET static void couple(group *g, const nlc_network *n, const double *from, co
 static int64_t empty(const group *g, nlc_network *n, const double *force, const double *normal)
 {
     int64_t bad = -1;
-    for (int l = 0; l < LANES && g->count[l] > 0; l++) {
+    for (int l = 0; l < LANES; l++) {
         const int64_t *entry = n->entry + g->begin[l], k = g->particle[l];
         for (int64_t d = 0; d < g->count[l]; d++) n->side[entry[d]] = g->at[d].displacement[l];
         n->largest[k] = g->largest[l];
@@ -182,7 +183,7 @@ static int64_t displace_window(nlc_network *n, const double *force, const double
     int64_t bad = -1;
     for (int q = 0; q < count; q += LANES) {
         const bool ahead = n->contact_count > FAR && q + 2 * LANES <= all;
-        choose(&g, n, sorted + q, count - q < LANES ? count - q : LANES);
+        choose(&g, n, sorted + q, count - q);
         fill(&g, n, force, normal);
         couple(&g, n, force, normal, ahead ? sorted + q + LANES : NULL);
         const int64_t k = empty(&g, n, force, normal);

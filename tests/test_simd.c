@@ -7,7 +7,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "../lib/variant.h"
+#include "../lib/network.h"
 #include "scene.h"
 
 /* As the loop tests number them; what the processor lacks is some other one of them, and passes as that. */
@@ -49,7 +49,7 @@ static void unguard(guarded g)
     ck_assert_int_eq(munmap(g.pages, g.size), 0);
 }
 
-/* The displacements of all sides, computed between guard pages; to be freed. */
+/* The displacements of all sides, computed between guard pages; to be freed.  Looks at the largest forces, too. */
 static double *sweep(const scene *s, int simd, const double *force, bool behind)
 {
     const size_t count = (size_t)s->contacts;
@@ -62,6 +62,13 @@ static double *sweep(const scene *s, int simd, const double *force, bool behind)
     nlc_network *n;
     ck_assert_int_eq(nlc_network_init(&n, memory.at, size, &p, s->i, s->j, s->contacts, &o, 0), NLC_OK);
     nlc_assert_quiet(ck_assert_int_eq(nlc_sweep(n, w.at, f.at, 0, v.at, 0), NLC_OK));
+    double *largest = calloc((size_t)(s->particles + 1), sizeof *largest);
+    for (int64_t e = 0; e < 2 * s->contacts; e++) {
+        const int32_t k = e & 1 ? s->j[e >> 1] : s->i[e >> 1];
+        largest[k] = fmax(largest[k], fabs(force[e >> 1]));
+    }
+    for (int64_t k = 0; k < s->particles; k++) nlc_assert_same(n->largest[k], largest[k]);
+    free(largest);
     double *out = malloc(2 * count * sizeof *out);
     ck_assert_ptr_nonnull(out);
     memcpy(out, w.at, 2 * count * sizeof *out);
