@@ -87,7 +87,7 @@ $(PC): FORCE
 
 # ---- programs on a packing, and on single spheres
 BENCH_SRC := $(sort $(wildcard $(S)/bench/*.c))
-BENCH_MAIN := $(filter %/packing.c %/bench.c %/steps.c %/accuracy.c,$(BENCH_SRC))
+BENCH_MAIN := $(filter %/packing.c %/bench.c %/steps.c %/roofline.c %/accuracy.c,$(BENCH_SRC))
 BENCH_COMMON := $(patsubst $(S)/%.c,$(B)/%.o,$(filter-out $(BENCH_MAIN),$(BENCH_SRC)))
 
 $(B)/bench/%.o: $(S)/bench/%.c
@@ -100,8 +100,9 @@ packing: $(B)/bench/packing ## build bench/packing, the same for a packing of yo
 demo: $(B)/bench/packing ## a real packing: forces with and without the coupling, a table, a picture, a ParaView file
 	@$(B)/bench/packing --svg $(B)/demo.svg --vtk $(B)/demo.vtk $(S)/bench/data/b_die125_rd0.80.csv
 PACKING ?= $(S)/bench/data/a_mono1000_periodic.csv
-bench: $(B)/bench/bench $(B)/bench/steps ## time the library against Algorithm 1 as printed; PACKING=file for a packing of your own
+bench: $(B)/bench/bench $(B)/bench/roofline $(B)/bench/steps ## time the library against Algorithm 1 as printed; PACKING=file for a packing of your own
 	@$(B)/bench/bench $(PACKING)
+	@$(B)/bench/roofline $(PACKING)
 	@$(B)/bench/steps $(PACKING)
 REFERENCES = $(filter-out %/hertz_pressure.csv,$(foreach d,reference fe,$(sort $(wildcard $(S)/bench/data/$(d)/*.csv))))
 accuracy: $(B)/bench/accuracy ## the models' forces beside exact elasticity and finite elements, and their cost: tables, charts

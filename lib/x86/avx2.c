@@ -7,7 +7,9 @@
 
 #define LANES 4
 #define TARGET __attribute__((target("avx2,fma")))
+#ifndef VARIANT
 #define VARIANT nlc_variant_avx2
+#endif
 #define TERMS 4 /* the estimate is good to 1.5 2^-12: e is below 3 2^-12, and the next term, 63/256 e^5, below 2^-54 */
 
 typedef __m256d vec;

@@ -7,7 +7,9 @@
 
 #define LANES 8
 #define TARGET __attribute__((target("avx512f")))
+#ifndef VARIANT
 #define VARIANT nlc_variant_avx512
+#endif
 #define TERMS 3 /* the estimate is good to 2^-14: e is below 2^-13, and the next term, 35/128 e^4, below 2^-53.8 */
 
 typedef __m512d vec;
