@@ -10,8 +10,9 @@
  *
  * 1/sqrt(t) is an estimate y of the instruction set and one step of the series y (1-e)^(-1/2), e = 1 - t y^2: the relative error is
  * below 2^-51.8.  A particle with two directions closer than 2^-23 is done again by the portable code, which knows what is too
- * close: here t needs neither a test nor care for its range.  So is one with contacts with itself, whose two sides have an order
- * of their own, and one with more contacts than a block holds.
+ * close: here t needs neither a test nor care for its range.  One with more contacts than a block holds is left to it, too.
+ *
+ * Contacts are read one by one: instructions that gather are not faster, and on many processors they are much slower.
  *
  * Measured against long double: displacements are wrong by at most Z 2^-53 times the sum of the absolute terms, Z contacts.
  *
@@ -20,12 +21,10 @@
  *     TARGET    attributes of functions that may use the instructions
  *     VARIANT   the row of the table, see variant.h
  *     TERMS     of the series
- * the types vec, ints, mask: LANES doubles, int64_t, truth values; and
- *     set, load, store, sub, mul, min, max, magnitude; muladd: ab + c; nmuladd: c - ab, both rounded once
+ * the type vec: LANES doubles; and
+ *     set, load, store, sub, mul, min; muladd: ab + c; nmuladd: c - ab, both rounded once
  *     estimate: 1/sqrt(t) for 2^-101 < t < 64
- *     iset, iload, iadd; half: e >> 1; above: a > b; turn: -v where e is odd
- *     gather, igather: elements of an array where the mask is set, else what is given, or 0
- * The memory of load, store and iload is aligned to whole vectors.
+ * The memory of load and store is aligned to whole vectors.
  */
 #include "network.h"
 
@@ -43,8 +42,7 @@ typedef struct place {
 
 typedef struct group {
     place at[NLC_BLOCK];
-    _Alignas(8 * LANES) int64_t begin[LANES], count[LANES]; /* of the particle's list */
-    int64_t places, particle[LANES];                        /* places: the largest count */
+    int64_t places, particle[LANES], begin[LANES], count[LANES]; /* of the particles' lists; places: the largest count */
     _Alignas(8 * LANES) double scale[LANES], c0[LANES], c1[LANES], c2[LANES];
     double largest[LANES], closest[LANES]; /* |force|; squared distance */
 } group;
@@ -67,24 +65,26 @@ static void choose(group *g, const nlc_network *n, const int32_t *particle, int 
     }
 }
 
-TARGET static void fill(group *g, const nlc_network *n, const double *force, const double *normal)
+static void fill_lane(group *g, int l, const nlc_network *n, const double *force, const double *normal)
 {
-    const ints count = iload(g->count), begin = iload(g->begin);
-    const vec scale = load(g->scale);
-    vec largest = set(0);
-    for (int64_t d = 0; d < g->places; d++) {
+    const double scale = g->scale[l];
+    double largest = 0;
+    for (int64_t d = 0; d < g->count[l]; d++) {
         place *at = &g->at[d];
-        const mask m = above(count, iset(d));
-        const ints e = igather(m, n->entry, iadd(begin, iset(d))), c = half(e), c3 = iadd(c, iadd(c, c));
-        const vec f = gather(set(0), m, force, c);
-        store(at->x, turn(gather(set((double)d / 256), m, normal, c3), e));
-        store(at->y, turn(gather(set(0), m, normal + 1, c3), e));
-        store(at->z, turn(gather(set(0), m, normal + 2, c3), e));
-        store(at->force, mul(scale, f));
-        store(at->displacement, set(0));
-        largest = max(largest, magnitude(f));
+        const int64_t e = nlc_side_at(n, normal, g->begin[l] + d), c = e >> 1;
+        const uint64_t sign = (uint64_t)e << 63;
+        const double p = fabs(force[c]);
+        at->x[l] = nlc_from_bits(nlc_bits(normal[3 * c]) ^ sign);
+        at->y[l] = nlc_from_bits(nlc_bits(normal[3 * c + 1]) ^ sign);
+        at->z[l] = nlc_from_bits(nlc_bits(normal[3 * c + 2]) ^ sign);
+        at->force[l] = scale * force[c];
+        largest = p > largest ? p : largest;
     }
-    store(g->largest, largest);
+    g->largest[l] = largest;
+    for (int64_t d = g->count[l]; d < g->places; d++) {
+        g->at[d].x[l] = (double)d / 256;
+        g->at[d].y[l] = g->at[d].z[l] = g->at[d].force[l] = 0;
+    }
 }
 
 /*
@@ -141,8 +141,8 @@ static int64_t empty(const group *g, nlc_network *n, const double *force, const 
 {
     int64_t bad = -1;
     for (int l = 0; l < LANES; l++) {
-        const int64_t *entry = n->entry + g->begin[l], k = g->particle[l];
-        for (int64_t d = 0; d < g->count[l]; d++) n->side[entry[d]] = g->at[d].displacement[l];
+        const int64_t k = g->particle[l];
+        for (int64_t d = 0; d < g->count[l]; d++) n->side[nlc_side_at(n, normal, g->begin[l] + d)] = g->at[d].displacement[l];
         n->largest[k] = g->largest[l];
         if (g->closest[l] < NEAR && !nlc_displace_particle(n, NLC_OF_FORCES, force, normal, k) && (bad < 0 || k < bad)) bad = k;
     }
@@ -153,10 +153,7 @@ static int64_t empty(const group *g, nlc_network *n, const double *force, const 
 static int length_of(const nlc_network *n, int64_t k)
 {
     const int64_t begin = n->start[k], end = n->start[k + 1];
-    if (end - begin > NLC_BLOCK || n->scale[k] == 0) return 0;
-    for (int64_t p = begin; p < end && n->self_contacts; p++)
-        if (n->i[n->entry[p] >> 1] == n->j[n->entry[p] >> 1]) return 0;
-    return (int)(end - begin);
+    return end - begin > NLC_BLOCK || n->scale[k] == 0 ? 0 : (int)(end - begin);
 }
 
 /* The particles from first to end: those done here come first, by falling number of contacts.  Returns how many they are. */
@@ -184,7 +181,7 @@ static int64_t displace_window(nlc_network *n, const double *force, const double
     for (int q = 0; q < count; q += LANES) {
         const bool ahead = n->contact_count > FAR && q + 2 * LANES <= all;
         choose(&g, n, sorted + q, count - q);
-        fill(&g, n, force, normal);
+        for (int l = 0; l < LANES; l++) fill_lane(&g, l, n, force, normal);
         couple(&g, n, force, normal, ahead ? sorted + q + LANES : NULL);
         const int64_t k = empty(&g, n, force, normal);
         if (k >= 0 && (bad < 0 || k < bad)) bad = k;

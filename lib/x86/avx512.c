@@ -13,8 +13,6 @@
 #define TERMS 3 /* the estimate is good to 2^-14: e is below 2^-13, and the next term, 35/128 e^4, below 2^-53.8 */
 
 typedef __m512d vec;
-typedef __m512i ints;
-typedef __mmask8 mask;
 
 #define set(x) _mm512_set1_pd(x)
 #define load(p) _mm512_load_pd(p)
@@ -22,19 +20,9 @@ typedef __mmask8 mask;
 #define sub(a, b) _mm512_sub_pd(a, b)
 #define mul(a, b) _mm512_mul_pd(a, b)
 #define min(a, b) _mm512_min_pd(a, b)
-#define max(a, b) _mm512_max_pd(a, b)
 #define muladd(a, b, c) _mm512_fmadd_pd(a, b, c)
 #define nmuladd(a, b, c) _mm512_fnmadd_pd(a, b, c)
-#define magnitude(a) _mm512_castsi512_pd(_mm512_and_si512(_mm512_castpd_si512(a), _mm512_set1_epi64(INT64_MAX)))
 #define estimate(t) _mm512_rsqrt14_pd(t)
-#define iset(x) _mm512_set1_epi64(x)
-#define iload(p) _mm512_load_si512(p)
-#define iadd(a, b) _mm512_add_epi64(a, b)
-#define half(e) _mm512_srli_epi64(e, 1)
-#define above(a, b) _mm512_cmpgt_epi64_mask(a, b)
-#define turn(v, e) _mm512_castsi512_pd(_mm512_xor_si512(_mm512_castpd_si512(v), _mm512_slli_epi64(e, 63)))
-#define gather(otherwise, m, array, at) _mm512_mask_i64gather_pd(otherwise, m, at, array, 8)
-#define igather(m, array, at) _mm512_mask_i64gather_epi64(_mm512_setzero_si512(), m, at, array, 8)
 
 #include "../lanes.h"
 #endif
