@@ -32,12 +32,22 @@ int64_t nlc_first_not_unit(const double *normals, int64_t count)
     return -1;
 }
 
-double nlc_largest_magnitude(const double *values, int64_t count)
+static uint64_t larger(uint64_t a, uint64_t b)
 {
-    uint64_t largest = 0;
-    for (int64_t c = 0; c < count; c++) {
-        uint64_t b = nlc_abs_bits(values[c]);
-        largest = b > largest ? b : largest;
+    return a > b ? a : b;
+}
+
+/* Four at a time: in one row each comparison would wait for the one before it. */
+double nlc_largest_magnitude(const double *v, int64_t count)
+{
+    uint64_t a = 0, b = 0, d = 0, e = 0;
+    int64_t c = 0;
+    for (; c < count - 3; c += 4) {
+        a = larger(a, nlc_abs_bits(v[c]));
+        b = larger(b, nlc_abs_bits(v[c + 1]));
+        d = larger(d, nlc_abs_bits(v[c + 2]));
+        e = larger(e, nlc_abs_bits(v[c + 3]));
     }
-    return nlc_from_bits(largest);
+    for (; c < count; c++) a = larger(a, nlc_abs_bits(v[c]));
+    return nlc_from_bits(larger(larger(a, b), larger(d, e)));
 }
