@@ -63,6 +63,9 @@ module nlcontact
     integer(c_int32_t), parameter :: NLC_METHOD_FIXED_POINT = 1
     integer(c_int32_t), parameter :: NLC_SIMD_BEST = 0
     integer(c_int32_t), parameter :: NLC_SIMD_GENERIC = 1
+    integer(c_int32_t), parameter :: NLC_SIMD_AVX2 = 2
+    integer(c_int32_t), parameter :: NLC_SIMD_AVX512 = 3
+    integer(c_int32_t), parameter :: NLC_SIMD_NEON = 4
 
     type, bind(c) :: nlc_material
         real(c_double) :: young = 0
