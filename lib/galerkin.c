@@ -54,9 +54,10 @@ static bool sweep(nlc_iteration *q, nlc_response response, const double *force, 
     nlc_network *n = q->n;
     out->info.sweeps++;
     out->status = nlc_displace(n, response, force, q->normal, &out->info.culprit);
-    for (int64_t c = 0; c < n->contact_count && out->status == NLC_OK; c++)
-        displacement[c] = n->side[2 * c] + n->side[2 * c + 1];
-    return out->status == NLC_OK;
+    if (out->status != NLC_OK) return false;
+    const double *side = n->side;
+    for (int64_t c = 0; c < n->contact_count; c++) displacement[c] = side[2 * c] + side[2 * c + 1];
+    return true;
 }
 
 static void set_slopes(nlc_iteration *q)
