@@ -36,6 +36,7 @@ static void spread(nlc_iteration *q, int64_t e, int64_t particle, double change)
     put(&a, q->normal, e, nlc_scale_of(n, particle) * change);
     while (p < end) {
         b.count = 0;
+        b.tilted = false; /* there may be none but e left */
         for (; p < end && b.count < NLC_BLOCK; p++) {
             if (n->entry[p] == e) continue;
             entry[b.count] = n->entry[p] >> 1;
