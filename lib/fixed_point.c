@@ -9,6 +9,7 @@
  * packings that made the error up to 1.2 times this; the largest of three rates and twice the sum are taken.
  */
 #include <float.h>
+#include <string.h>
 
 #include "contact.h"
 
@@ -67,11 +68,10 @@ static void keep_displacements(nlc_network *n, const double *overlap, double cap
     }
 }
 
-static void swap_best(nlc_network *n)
+/* Copied: the part works in the same memory, and knows spare[0] by its address. */
+static void copy_displacements(const nlc_network *n, double *to, const double *from)
 {
-    double *t = n->spare[0];
-    n->spare[0] = n->current;
-    n->current = t;
+    memcpy(to, from, (size_t)n->contact_count * sizeof *to);
 }
 
 /* Estimated error of the forces after this sweep. */
@@ -115,13 +115,13 @@ void nlc_fixed_point(nlc_network *n, const double *overlap, const double *normal
         if (s.change < s.smallest) {
             s.smallest = s.change;
         } else if (s.last_change <= s.smallest) {
-            swap_best(n); /* the displacements that this sweep started from were the best */
+            copy_displacements(n, n->spare[0], n->current); /* the displacements that this sweep started from were the best */
         }
         keep_displacements(n, overlap, runaway);
         if (error <= n->settings.tolerance) return finish(out, NLC_OK, error, s.worst);
         if (s.change <= ROUNDING && s.change >= s.smallest) return finish(out, NLC_WARNING_ROUNDING, error, s.worst);
         if (s.highest >= runaway && runaway > 0) break;
     }
-    if (s.change > s.smallest) swap_best(n);
+    if (s.change > s.smallest) copy_displacements(n, n->current, n->spare[0]);
     finish(out, NLC_WARNING_NOT_CONVERGED, s.smallest, s.worst);
 }
