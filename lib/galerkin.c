@@ -24,6 +24,7 @@
 #define LONGEST_STEP 8    /* first steps, in units of the largest force nearby ... */
 #define SHORTEST 64       /* ... but no step is cut to less than one part in this */
 #define GIVE_UP 100       /* sweeps in a solve after which a stable solution is no longer expected */
+#define LOST 40           /* sweeps after which a residual that is still larger than any force says that the start was nonsense */
 #define HOPELESS 0.9      /* ... if a Ritz value is above this; many strong repulsions take as long, but converge */
 #define LOAD_STEPS 16     /* when all else has failed */
 #define LOAD_SWEEPS 60    /* in each of them but the last */
@@ -190,6 +191,7 @@ static verdict iterate(nlc_iteration *q, progress *s, nlc_outcome *out)
         const verdict v = s->exact ? judge(q, s, out) : GO_ON;
         if (v != GO_ON || out->info.sweeps >= q->n->settings.max_sweeps) return v;
         if ((out->info.sweeps - s->begun > GIVE_UP && q->theta > HOPELESS) || s->critical >= 6) return BEYOND;
+        if (out->info.sweeps - s->begun > LOST && q->largest_residual >= q->largest_force) return GO_ON;
         if (!advance(q, s, out)) return DONE;
         if (s->looked || q->theta <= 1 - 2 * NLC_MARGIN || q->largest_residual >= NEAR * q->largest_force) continue;
         s->looked = true;
@@ -219,15 +221,19 @@ static void solve(nlc_network *n, const double *overlap, const double *normal, d
 }
 
 /*
- * Where that neither converges nor finds anything to weaken, the iterate has lost its way between several solutions: once more
- * from nothing, with the load applied in steps.
+ * Where that neither converges nor finds anything to weaken, the start was nonsense: once more from nothing.  If that does not
+ * help, the iterate has lost its way between several solutions: with the load applied in steps.
  */
 void nlc_galerkin(nlc_network *n, const double *overlap, const double *normal, nlc_outcome *out)
 {
     const int64_t most = n->settings.max_sweeps;
-    solve(n, overlap, normal, 1, out);
-    if (out->status != NLC_WARNING_NOT_CONVERGED || out->info.sweeps >= most) return;
-    for (int64_t c = 0; c < n->contact_count; c++) n->current[c] = 0;
+    const bool cold = nlc_largest_magnitude(n->current, n->contact_count) <= 0;
+    for (int attempt = cold; attempt < 2; attempt++) {
+        solve(n, overlap, normal, 1, out);
+        if (out->status != NLC_WARNING_NOT_CONVERGED || out->info.sweeps >= most) return;
+        for (int64_t c = 0; c < n->contact_count; c++) n->current[c] = 0;
+        if (attempt == 0) nlc_start_over(out);
+    }
     for (int step = 1; step <= LOAD_STEPS && out->status >= 0; step++) {
         nlc_start_over(out);
         n->settings.max_sweeps = out->info.sweeps + LOAD_SWEEPS < most && step < LOAD_STEPS ? out->info.sweeps + LOAD_SWEEPS : most;

@@ -114,13 +114,14 @@ static void merge(nlc_outcome *out, const nlc_network *n, const nlc_outcome *par
  * anew from where it did: a cluster does not learn what happens in others.
  */
 static void solve_cluster(nlc_network *n, const int64_t *origin, int64_t count, const double *overlap, const double *normal,
-                          const double *nonlocal, nlc_outcome *out)
+                          const double *nonlocal, int64_t sweeps_before, nlc_outcome *out)
 {
     nlc_outcome part = {NLC_OK, nlc_new_info()};
     bool joined = false;
     for (int64_t m = 0; m < count; m++) joined |= n->mark[origin[m]] == NLC_NEW;
     for (int64_t m = 0; m < count && !joined; m++) n->current[origin[m]] = start_of(n, origin[m], overlap, nonlocal);
     nlc_build_part(n, origin, count, overlap, normal);
+    n->part->settings.max_sweeps -= sweeps_before;
     n->settings.model->potential ? nlc_galerkin(n->part, n->part_overlap, n->part_normal, &part)
                                  : nlc_mixed(n->part, n->part_overlap, n->part_normal, &part);
     warn_if_close(n->part, n->part_overlap, n->part_normal, &part);
@@ -147,7 +148,7 @@ static void by_clusters(nlc_network *n, const double *overlap, const double *nor
         if (count == 0) out->info.lambda_lower = out->info.lambda_upper = 0; /* nothing is coupled */
         for (int64_t m = 0, end; m < count && out->status >= 0; m = end) {
             end = nlc_cluster_end(n, m, count);
-            solve_cluster(n, n->origin + m, end - m, overlap, normal, nonlocal, out);
+            solve_cluster(n, n->origin + m, end - m, overlap, normal, nonlocal, before, out);
         }
         out->info.sweeps += before;
         before = out->info.sweeps;
