@@ -7,46 +7,34 @@
  */
 #include <float.h>
 
-#include "model.h"
-#include "number.h"
+#include "rows.h"
 
 #define STEEPEST 1e-3 /* 1 - N_d.u is taken for no less: c straight above d has no place on a half-space */
 
-static bool row(nlc_block *a, int c, const nlc_block *b, const nlc_kernel *kernel, bool same)
+static bool row(nlc_block *a, int c, const nlc_block *b, const nlc_kernel *kernel)
 {
     const double x = a->x[c], y = a->y[c], z = a->z[c], nu = kernel->poisson;
-    double part[NLC_BLOCK], sum = 0, nearest = 4;
+    double part[NLC_BLOCK];
     for (int d = 0; d < b->count; d++) {
         /* r = N_c - N_d + what the points are off: no digits are lost where they are close */
         const double dx = x - b->x[d], dy = y - b->y[d], dz = z - b->z[d], q = a->shape[c], p = b->shape[d];
         const double rx = dx + (q * x - p * b->x[d]), ry = dy + (q * y - p * b->y[d]), rz = dz + (q * z - p * b->z[d]);
-        const double h2 = rx * rx + ry * ry + rz * rz, i = 1 / sqrt(h2 + (same && d == c ? 1 : DBL_MIN)); /* not looked at: 1 */
+        const double h2 = rx * rx + ry * ry + rz * rz, i = 1 / sqrt(h2 + (a == b && d == c ? 1 : DBL_MIN)); /* not looked at: 1 */
         const double cosine = 1 - 0.5 * (dx * dx + dy * dy + dz * dz);
         const double from = i * (rx * b->x[d] + ry * b->y[d] + rz * b->z[d]), to = i * (rx * x + ry * y + rz * z);
         const double least = 1 - from, below = 0.5 * (least + STEEPEST + fabs(least - STEEPEST)); /* the larger of the two */
-        part[d] = i * (from * to + (3 - 4 * nu) * cosine - (1 - 2 * nu) * (cosine - to) / below) * b->force[d];
+        const double sum = from * to + (3 - 4 * nu) * cosine - (1 - 2 * nu) * (cosine - to) / below;
+        part[d] = -2 * kernel->prefactor * i * sum * b->force[d];
     }
-    for (int d = 0; d < b->count; d++) {
-        if (same && d == c) continue;
-        const double dx = x - b->x[d], dy = y - b->y[d], dz = z - b->z[d], t = dx * dx + dy * dy + dz * dz;
-        nearest = t < nearest ? t : nearest;
-        sum += part[d];
-    }
-    a->displacement[c] -= 2 * kernel->prefactor * sum;
-    return nearest <= 0x1p-200;
+    return nlc_add_row(a, c, b, part);
 }
 
 bool nlc_half_space_within(nlc_block *a, const nlc_kernel *kernel)
 {
-    bool same = false;
-    for (int c = 0; c < a->count; c++) same |= row(a, c, a, kernel, true);
-    return !same;
+    return nlc_rows_within(a, kernel, row);
 }
 
 bool nlc_half_space_between(nlc_block *a, nlc_block *b, const nlc_kernel *kernel)
 {
-    bool same = false;
-    for (int c = 0; c < a->count; c++) same |= row(a, c, b, kernel, false);
-    for (int d = 0; d < b->count; d++) same |= row(b, d, a, kernel, false);
-    return !same;
+    return nlc_rows_between(a, b, kernel, row);
 }
