@@ -13,11 +13,6 @@
  */
 #define NEAR 0.2
 
-static bool yields(const nlc_network *n, int64_t body)
-{
-    return body < n->particle_count && n->scale[body] > 0;
-}
-
 static double largest_nearby(const nlc_network *n, int64_t c)
 {
     const double a = n->largest[n->i[c]], b = n->largest[n->j[c]];
@@ -48,13 +43,14 @@ static int64_t count_marks(nlc_network *n)
     for (int64_t k = 0; k < n->particle_count; k++) n->degree[k] = 0;
     for (int64_t c = 0; c < n->contact_count; c++) {
         if (n->mark[c] == NLC_OUT) continue;
-        if (yields(n, n->i[c])) n->degree[n->i[c]]++;
-        if (yields(n, n->j[c])) n->degree[n->j[c]]++;
+        if (nlc_yield_of(n, n->i[c]) > 0) n->degree[n->i[c]]++;
+        if (nlc_yield_of(n, n->j[c]) > 0) n->degree[n->j[c]]++;
     }
     for (int64_t c = 0; c < n->contact_count; c++) {
         if (n->mark[c] == NLC_OUT) continue;
         const int32_t least = n->settings.model->self ? 0 : 1;
-        const bool moved = (yields(n, n->i[c]) && n->degree[n->i[c]] > least) || (yields(n, n->j[c]) && n->degree[n->j[c]] > least);
+        const bool moved = (nlc_yield_of(n, n->i[c]) > 0 && n->degree[n->i[c]] > least) ||
+                           (nlc_yield_of(n, n->j[c]) > 0 && n->degree[n->j[c]] > least);
         n->mark[c] = !moved ? NLC_ALONE : n->mark[c] == NLC_NEW ? NLC_NEW : NLC_IN;
         count += moved;
     }
@@ -167,10 +163,7 @@ static void put(nlc_block *b, const nlc_network *n, const double *normal, int64_
     const nlc_shape shape = n->settings.model->shape;
     const bool circles = shape == NLC_SHAPE_MOMENTS || shape == NLC_SHAPE_RADIUS;
     const double t2 = circles ? nlc_circle2(n, e, particle) : 0;
-    const double out = nlc_outward(e), *v = normal + 3 * (e >> 1);
-    b->x[b->count] = out * v[0];
-    b->y[b->count] = out * v[1];
-    b->z[b->count] = out * v[2];
+    nlc_set_direction(b, b->count, normal, e);
     b->force[b->count] = nlc_scale_of(n, particle) * n->force[e >> 1];
     b->shape[b->count] = shape == NLC_SHAPE_RADIUS ? sqrt(t2) : b->force[b->count] * t2 / 10;
     b->tilt[b->count] = shape == NLC_SHAPE_MOMENTS ? nlc_tilt(n, e, particle) : 0;

@@ -40,10 +40,7 @@ static bool gather_active(nlc_block *b, int64_t *entry, const nlc_network *n, co
         const int64_t e = nlc_side_at(n, normal, p);
         if (n->slope[e >> 1] <= 0) continue;
         if (b->count == NLC_BLOCK) return false;
-        const double out = nlc_outward(e), *v = normal + 3 * (e >> 1);
-        b->x[b->count] = out * v[0];
-        b->y[b->count] = out * v[1];
-        b->z[b->count] = out * v[2];
+        nlc_set_direction(b, b->count, normal, e);
         b->force[b->count] = weight_of(n, e);
         b->shape[b->count] = circles ? nlc_circle2(n, e, particle) / 6 : 0; /* as the tangent has it */
         b->tilt[b->count] = circles ? nlc_tilt(n, e, particle) : 0;

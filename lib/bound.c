@@ -24,8 +24,7 @@ static void first_shares(nlc_network *n)
 {
     for (int64_t c = 0; c < n->contact_count; c++) {
         const int64_t i = n->i[c], j = n->j[c];
-        const double a = i < n->particle_count ? n->scale[i] : 0, b = j < n->particle_count ? n->scale[j] : 0;
-        set_shares(n, c, a, b);
+        set_shares(n, c, nlc_yield_of(n, i), nlc_yield_of(n, j));
     }
 }
 

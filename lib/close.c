@@ -37,10 +37,7 @@ static void gather_circles(nlc_block *b, const nlc_network *n, const double *ove
     b->count = (int)(end - begin);
     for (int d = 0; d < b->count; d++) {
         const int64_t e = n->entry[begin + d];
-        const double out = nlc_outward(e), *v = normal + 3 * (e >> 1);
-        b->x[d] = out * v[0];
-        b->y[d] = out * v[1];
-        b->z[d] = out * v[2];
+        nlc_set_direction(b, d, normal, e);
         b->force[d] = radius_of(n, e >> 1, particle, overlap);
     }
 }

@@ -6,11 +6,6 @@
  */
 #include "active.h"
 
-static bool yields(const nlc_network *n, int64_t body)
-{
-    return body < n->particle_count && n->scale[body] > 0;
-}
-
 static int32_t first_of(int32_t *cluster, int32_t k)
 {
     while (cluster[k] != k) k = cluster[k] = cluster[cluster[k]];
@@ -19,7 +14,7 @@ static int32_t first_of(int32_t *cluster, int32_t k)
 
 static void join(nlc_network *n, int64_t c)
 {
-    if (!yields(n, n->i[c]) || !yields(n, n->j[c])) return;
+    if (!(nlc_yield_of(n, n->i[c]) > 0) || !(nlc_yield_of(n, n->j[c]) > 0)) return;
     const int32_t a = first_of(n->cluster, n->i[c]), b = first_of(n->cluster, n->j[c]);
     if (a < b) n->cluster[b] = a;
     else n->cluster[a] = b;
@@ -28,8 +23,8 @@ static void join(nlc_network *n, int64_t c)
 /* -1: both bodies are rigid or walls, which network_init refuses, or nothing is moved by the contact. */
 static int32_t cluster_of(nlc_network *n, int64_t c)
 {
-    if (yields(n, n->i[c])) return first_of(n->cluster, n->i[c]);
-    return yields(n, n->j[c]) ? first_of(n->cluster, n->j[c]) : -1;
+    if (nlc_yield_of(n, n->i[c]) > 0) return first_of(n->cluster, n->i[c]);
+    return nlc_yield_of(n, n->j[c]) > 0 ? first_of(n->cluster, n->j[c]) : -1;
 }
 
 bool nlc_is_connected(nlc_network *n)

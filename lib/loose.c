@@ -12,17 +12,12 @@
 
 #define DOUBT 2.0 /* sums of forces, in units of Hertz's */
 
-static double scale_of(const nlc_network *n, int64_t body)
-{
-    return body < n->particle_count ? n->scale[body] : 0;
-}
-
 /* A scene that is not loose shows it at the first contact with a force: it would move others like itself by too much. */
 static bool may_be_loose(const nlc_network *n, const double *overlap)
 {
     for (int64_t c = 0; c < n->contact_count; c++) {
         if (!(overlap[c] > 0)) continue;
-        const double a = scale_of(n, n->i[c]), b = scale_of(n, n->j[c]);
+        const double a = nlc_yield_of(n, n->i[c]), b = nlc_yield_of(n, n->j[c]);
         return (a > b ? a : b) * n->stiffness[c] * sqrt(overlap[c]) <= n->settings.tolerance;
     }
     return false;

@@ -87,6 +87,21 @@ static inline double nlc_outward(int64_t entry)
     return entry & 1 ? -1.0 : 1.0;
 }
 
+/* By how much a body's surface yields, its U; 0: it is rigid, or a wall. */
+static inline double nlc_yield_of(const nlc_network *n, int64_t body)
+{
+    return body < n->particle_count ? n->scale[body] : 0;
+}
+
+/* The outward direction of a side as number d of a block. */
+static inline void nlc_set_direction(nlc_block *b, int d, const double *normal, int64_t e)
+{
+    const double out = nlc_outward(e), *v = normal + 3 * (e >> 1);
+    b->x[d] = out * v[0];
+    b->y[d] = out * v[1];
+    b->z[d] = out * v[2];
+}
+
 /*
  * The side at a place of the adjacency.  The two sides of a contact of a particle with itself stand one behind the other;
  * their order is made to depend on the normal alone, so that exchanging i and j with the normal reversed changes no bit.

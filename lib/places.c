@@ -4,17 +4,12 @@
 
 #define FARTHEST 0.5 /* from the undeformed surface, in units of R */
 
-static double yield_of(const nlc_network *n, int64_t body)
-{
-    return body < n->particle_count ? n->scale[body] : 0;
-}
-
 void nlc_set_places(nlc_network *n, const double *side, const double *overlap, double per_overlap)
 {
     for (int64_t e = 0; e < 2 * n->contact_count; e++) {
         const int64_t c = e >> 1, body = e & 1 ? n->j[c] : n->i[c];
         n->own[e] = 0;
-        if (!(yield_of(n, body) > 0)) continue;
+        if (!(nlc_yield_of(n, body) > 0)) continue;
         const double length = nlc_length_of(n, body), most = FARTHEST * length;
         const double place = nlc_place(side[e], side[e ^ 1], overlap[c] * per_overlap);
         n->own[e] = (place > most ? most : place < -most ? -most : place) / length;
@@ -24,7 +19,7 @@ void nlc_set_places(nlc_network *n, const double *side, const double *overlap, d
 void nlc_split_sides(const nlc_network *n, double *side)
 {
     for (int64_t c = 0; c < n->contact_count; c++) {
-        const double a = yield_of(n, n->i[c]), b = yield_of(n, n->j[c]), larger = a > b ? a : b;
+        const double a = nlc_yield_of(n, n->i[c]), b = nlc_yield_of(n, n->j[c]), larger = a > b ? a : b;
         const double r = a / (larger + 1e-300), s = b / (larger + 1e-300), sum = r + s + 1e-300;
         side[2 * c] = r / sum * n->current[c];
         side[2 * c + 1] = s / sum * n->current[c];

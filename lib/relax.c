@@ -15,11 +15,8 @@
 
 static void put(nlc_block *b, const double *normal, int64_t e, double force)
 {
-    const double out = nlc_outward(e), *v = normal + 3 * (e >> 1);
     const int d = b->count++;
-    b->x[d] = out * v[0];
-    b->y[d] = out * v[1];
-    b->z[d] = out * v[2];
+    nlc_set_direction(b, d, normal, e);
     b->force[d] = force;
     b->shape[d] = b->tilt[d] = b->displacement[d] = b->second[d] = b->third[d] = 0;
     b->tilted = false;
@@ -76,7 +73,7 @@ static void begin_anew(nlc_iteration *q)
         if (repelled[c] > 0) give(q, c, 0);
     for (int level = 0; level < LEVELS; level++)
         for (int64_t c = 0; c < n->contact_count; c++) {
-            const double x = q->overlap[c] * q->load, least = level < LEVELS - 1 ? nlc_pow2(-level) * 2 * TOP : 0;
+            const double x = q->overlap[c] * q->load, least = level < LEVELS - 1 ? nlc_pow2(-level) * TOP : 0;
             if (repelled[c] <= 0 || x <= least) continue;
             give(q, c, nlc_scaled_force(q, c));
             repelled[c] = 0;

@@ -16,10 +16,7 @@ static double gather(nlc_block *b, const nlc_network *n, nlc_response response, 
     b->count = (int)(end - begin);
     for (int d = 0; d < b->count; d++) {
         int64_t e = nlc_side_at(n, normal, begin + d), c = e >> 1;
-        double out = nlc_outward(e);
-        b->x[d] = out * normal[3 * c];
-        b->y[d] = out * normal[3 * c + 1];
-        b->z[d] = out * normal[3 * c + 2];
+        nlc_set_direction(b, d, normal, e);
         b->force[d] = U * force[c];
         b->displacement[d] = b->second[d] = b->third[d] = 0;
         double p = fabs(force[c]);
