@@ -366,6 +366,28 @@ START_TEST(only_what_moves)
 }
 END_TEST
 
+/* The same in a long chain to a close tolerance: without what was solved for in the region the whole would take more sweeps. */
+START_TEST(only_what_moves_in_a_chain)
+{
+    scene s;
+    nlc_info info = {.struct_size = sizeof info};
+    scene_init(&s);
+    const int32_t m = scene_material(&s, 1, 0.45);
+    for (int k = 0; k <= 400; k++) scene_particle(&s, 1, m);
+    for (int k = 0; k < 400; k++) scene_contact(&s, k, k + 1, 0.04 + 1e-4 * (k % 7), 1, 0, 0);
+    long double *exact = malloc((size_t)s.contacts * sizeof *exact);
+    ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+    s.overlap[200] *= 1.01;
+    ck_assert(scene_oracle(&s, 1, exact) < 1e-15L);
+    ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+    ck_assert(scene_error(&s, s.force, exact) <= 1e-8);
+    ck_assert_msg(info.settled > 5 && info.settled < 40 && info.sweeps <= 2, "%jd settled, %jd sweeps", (intmax_t)info.settled,
+                  (intmax_t)info.sweeps);
+    free(exact);
+    scene_free(&s);
+}
+END_TEST
+
 /* One compressed pair among a thousand grains that nearly touch: nothing else is looked at. */
 START_TEST(what_cannot_move_is_left_out)
 {
@@ -513,6 +535,7 @@ static Suite *forces(void)
     tcase_add_loop_test(t, loose_scenes_agree_with_long_double, 0, 2);
     tcase_add_test(t, what_cannot_move_is_left_out);
     tcase_add_test(t, only_what_moves);
+    tcase_add_test(t, only_what_moves_in_a_chain);
     tcase_add_test(t, half_space_is_case_one_times_prefactor);
     suite_add_tcase(suite, t);
     return suite;
