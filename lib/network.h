@@ -22,7 +22,7 @@
 typedef struct nlc_settings {
     const nlc_model *model;
     const nlc_variant *variant; /* NULL: the portable code */
-    int32_t number, method, simd, reserved; /* number: of the model */
+    int32_t number, method; /* number: of the model */
     double tolerance, prefactor;
     int64_t max_sweeps;
 } nlc_settings;

@@ -34,12 +34,10 @@ nlc_status nlc_read_settings(nlc_settings *settings, const nlc_options *o, int64
     settings->model = undeformed ? &nlc_half_space_undeformed : &nlc_models[o->model];
     settings->variant = nlc_choose_variant(o->simd);
     settings->number = o->model;
-    settings->reserved = 0;
     settings->method = o->method;
-    settings->simd = o->simd;
     settings->tolerance = o->tolerance <= 0 ? DEFAULT_TOLERANCE : o->tolerance < 1 ? o->tolerance : 1;
     settings->max_sweeps = o->max_sweeps > 0 ? o->max_sweeps : DEFAULT_MAX_SWEEPS;
-    settings->prefactor = o->prefactor > 0 ? o->prefactor : 1;
+    settings->prefactor = o->model == NLC_MODEL_HALF_SPACE && o->prefactor > 0 ? o->prefactor : 1;
     return NLC_OK;
 }
 
@@ -61,17 +59,19 @@ static double hertz_stiffness_of(const nlc_network *n, int64_t c)
 static void set_compliances(nlc_network *n)
 {
     int softest = INT32_MAX; /* exponent of its modulus */
-    for (int64_t m = 0; m < n->material_count; m++) {
-        const nlc_material row = n->materials[m];
-        if (!nlc_is_material(row.young, row.poisson) || !nlc_is_finite(row.young)) continue;
+    for (int64_t m = 0; m < n->material_count; m++) n->kernel[m].compliance = 0;
+    for (int64_t k = 0; k < n->body_count; k++) {
+        const nlc_material row = n->materials[n->material[k]];
+        if (!nlc_is_finite(row.young)) continue;
+        n->kernel[n->material[k]].compliance = 1; /* in use */
         const int e = nlc_split(row.young).e;
         softest = e < softest ? e : softest;
     }
     for (int64_t m = 0; m < n->material_count; m++) {
+        if (!(n->kernel[m].compliance > 0)) continue;
         const nlc_material row = n->materials[m];
-        const bool yields = nlc_is_material(row.young, row.poisson) && nlc_is_finite(row.young);
-        const nlc_scaled young = nlc_split(yields ? row.young : 1);
-        n->kernel[m].compliance = yields ? nlc_join((1 - row.poisson * row.poisson) / young.m, softest - young.e) : 0;
+        const nlc_scaled young = nlc_split(row.young);
+        n->kernel[m].compliance = nlc_join((1 - row.poisson * row.poisson) / young.m, softest - young.e);
     }
 }
 

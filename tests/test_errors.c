@@ -229,8 +229,10 @@ START_TEST(options)
     WITH(f.options.max_sweeps, -1, init(), NLC_ERROR_OPTION, offsetof(nlc_options, max_sweeps));
     WITH(f.options.simd, 77, init(), NLC_ERROR_OPTION, offsetof(nlc_options, simd));
     WITH(f.options.points, 2, init(), NLC_ERROR_OPTION, offsetof(nlc_options, points));
+    f.options.model = NLC_MODEL_HALF_SPACE;
     WITH(f.options.prefactor, 1e305, init(), NLC_ERROR_RANGE, -1);
     WITH(f.options.prefactor, 1e305, nlc_set_options(f.s.network, &f.options, &f.info), NLC_ERROR_RANGE, -1);
+    f.options.model = NLC_MODEL_GONZALEZ_CUITINO;
     WITH(f.options.method, 99, nlc_set_options(f.s.network, &f.options, &f.info), NLC_ERROR_METHOD, 99);
     double stiffness[5] = {1, 2, 3, 4, 5};
     f.options.stiffness = stiffness;

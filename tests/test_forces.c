@@ -366,6 +366,28 @@ START_TEST(only_what_moves)
 }
 END_TEST
 
+/* Rows of materials that nothing is made of, and a prefactor that the model does not have, change no bit. */
+START_TEST(what_is_not_in_use)
+{
+    for (int model = 0; model < 6; model++) {
+        scene plain, other;
+        scene *both[2] = {&plain, &other};
+        for (int k = 0; k < 2; k++) {
+            rng g = {23};
+            scene_init(both[k]);
+            both[k]->options.model = model;
+            if (k == 1) both[k]->options.prefactor = model == NLC_MODEL_HALF_SPACE ? 1 : 1e200;
+            scene_cluster(both[k], &g, 9, 0.6);
+            if (k == 1) scene_material(both[k], 1e-300, 0.2);
+            if (k == 1) scene_material(both[k], 1e300, 0.2);
+            ck_assert_int_ge(scene_solve(both[k], 0), 0);
+        }
+        for (int64_t c = 0; c < plain.contacts; c++) nlc_assert_same(plain.force[c], other.force[c]);
+        scene_free(&plain), scene_free(&other);
+    }
+}
+END_TEST
+
 /* The same in a long chain to a close tolerance: without what was solved for in the region the whole would take more sweeps. */
 START_TEST(only_what_moves_in_a_chain)
 {
@@ -536,6 +558,7 @@ static Suite *forces(void)
     tcase_add_test(t, what_cannot_move_is_left_out);
     tcase_add_test(t, only_what_moves);
     tcase_add_test(t, only_what_moves_in_a_chain);
+    tcase_add_test(t, what_is_not_in_use);
     tcase_add_test(t, half_space_is_case_one_times_prefactor);
     suite_add_tcase(suite, t);
     return suite;
