@@ -104,8 +104,10 @@ void nlc_settle_region(nlc_network *n, const double *overlap, const double *norm
     count = add_seam(n, layers_for(change / (QUIET * n->settings.tolerance)));
     if ((double)count > REGION * (double)n->contact_count) return;
     nlc_build_part(n, n->origin, count, overlap, normal);
-    if (!hold_the_rest(n)) return;
+    n->part->settings.max_sweeps -= out->info.sweeps;
+    if (n->part->settings.max_sweeps <= 0 || !hold_the_rest(n)) return;
     nlc_galerkin(n->part, n->part_overlap, n->part_normal, &part);
+    out->info.blocks += part.info.blocks;
     if (part.status < 0) return;
     out->info.settled = count;
     n->swept = false;
