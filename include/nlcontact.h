@@ -646,8 +646,10 @@ NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *opti
  * Work is done only where there is something to solve for: not on contacts without force, on pairs that no other force moves, or
  * on rigid and flat sides (info.left_out); where forces change in a small part of the scene only, that is solved for first
  * (info.settled) and the whole with little to do from there; clusters of contacts that no yielding particle joins are solved
- * apart (info.clusters), and what happens in one changes no bit in another; and a scene so loose that Hertz's forces can be
+ * apart (info.clusters), and what overlaps in one changes no bit in another; and a scene so loose that Hertz's forces can be
  * proved to be within the tolerance is not solved for at all: then sweeps = 0, residual is the proved error, and nonlocal 0.
+ * (That is decided for the scene as a whole, as is which candidates are looked at when all of nonlocal[] is 0: another cluster that
+ * makes the difference there may move forces, within the tolerance.)
  *
  * Models.  In NLC_MODEL_SPHERE the coefficients depend on the forces, but there is an energy, and all of the above holds with the
  * coupling of its tangent in the place of C, what a contact's force does to the contact itself included.  NLC_MODEL_LOVE and
