@@ -33,17 +33,50 @@ static bool couples(const nlc_network *n, int64_t particle)
     return n->scale[particle] > 0 && n->start[particle + 1] > n->start[particle];
 }
 
+/* Sets network->changed of the particles from first to end; 0: it is known that b_k <= beta. */
+static void mark_above(nlc_network *n, const double *normal, double beta, int64_t first, int64_t end)
+{
+    if (nlc_variant_of(n) && beta > 0)
+        n->settings.variant->mark_above(n, n->side, normal, beta, first, end);
+    else
+        for (int64_t k = first; k < end; k++) n->changed[k] = 1;
+}
+
+/* The cheapest test that decides. */
+static bool is_below(nlc_network *n, const double *normal, int64_t k, double beta, nlc_bound *result)
+{
+    if (!couples(n, k)) return true;
+    result->blocks++;
+    if (!n->changed[k] || nlc_block_norm(n, normal, k) <= beta) return true;
+    result->blocks++;
+    return nlc_block_is_below(n, normal, k, beta);
+}
+
+/* (U D / share)^1/2 of each side, into network->side. */
+static void set_roots(nlc_network *n)
+{
+    for (int64_t c = 0; c < n->contact_count; c++)
+        for (int side = 0; side < 2; side++) {
+            const int64_t body = side == 0 ? n->i[c] : n->j[c];
+            const double share = n->share[2 * c + side];
+            n->side[2 * c + side] = share > 0 ? sqrt(n->unit * nlc_yield_of(n, body) * n->slope[c] / share) : 0;
+        }
+}
+
+#define PIECE 512 /* particles; the first one above ends it */
+
 bool nlc_bound_below(nlc_network *n, const double *normal, double beta, nlc_bound *result)
 {
     first_shares(n);
-    for (int64_t k = 0; k < n->particle_count; k++) {
-        if (!couples(n, k)) continue;
-        result->blocks++;
-        if (nlc_block_norm(n, normal, k) <= beta) continue;
-        result->blocks++;
-        if (nlc_block_is_below(n, normal, k, beta)) continue;
-        result->where = k;
-        return false;
+    set_roots(n);
+    for (int64_t first = 0; first < n->particle_count; first += PIECE) {
+        const int64_t end = n->particle_count - first > PIECE ? first + PIECE : n->particle_count;
+        mark_above(n, normal, beta, first, end);
+        for (int64_t k = first; k < end; k++) {
+            if (is_below(n, normal, k, beta, result)) continue;
+            result->where = k;
+            return false;
+        }
     }
     result->upper = beta;
     return true;

@@ -11,14 +11,13 @@
  * a = Y (Y^T W^T z / D) / (1 - theta).  Few directions serve easy scenes at the least cost; all of them are kept once a Ritz
  * value says that the scene is not easy.
  *
- * The end: |P - exact| <= SAFETY |z| / (1 - lambda), and lambda <= beta is proved particle by particle (bound.c) for the beta
- * that the tolerance needs.  SAFETY is for the norm: the factor holds in the energy norm, in the largest component it was
+ * The end: |P - exact| <= NLC_SAFETY |z| / (1 - lambda), and lambda <= beta is proved particle by particle (bound.c) for the beta
+ * that the tolerance needs.  NLC_SAFETY is for the norm: the factor holds in the energy norm, in the largest component it was
  * exceeded by up to 1.4 on crystals, packings and clusters.
  */
 #include "bound.h"
 #include "iteration.h"
 
-#define SAFETY 1.5
 #define ALL_FROM 0.35     /* Ritz value from which all directions are kept */
 #define BALANCE_FROM 0.9  /* another sweep is cheaper than balanced shares until |z| is a tenth of the tolerance */
 #define LONGEST_STEP 8    /* first steps, in units of the largest force nearby ... */
@@ -116,8 +115,8 @@ static verdict judge(nlc_iteration *q, progress *s, nlc_outcome *out)
     }
     s->stalled = s->ratio < 0.5 * s->best ? 0 : s->stalled + (s->ratio < ROUNDING);
     s->best = s->ratio < s->best ? s->ratio : s->best;
-    if (SAFETY * s->ratio <= tolerance) {
-        const verdict v = certify(q, 1 - SAFETY * s->ratio / tolerance, out);
+    if (NLC_SAFETY * s->ratio <= tolerance) {
+        const verdict v = certify(q, 1 - NLC_SAFETY * s->ratio / tolerance, out);
         if (v != GO_ON) return v;
     }
     if (s->stalled < 3) return GO_ON;
@@ -207,7 +206,7 @@ static void solve(nlc_network *n, const double *overlap, const double *normal, d
     nlc_iteration_start(&q, n, overlap, normal, part);
     const verdict v = iterate(&q, &s, out);
     if (out->status < 0) return;
-    out->info.residual = SAFETY * s.ratio / (out->info.lambda_upper < 1 ? 1 - out->info.lambda_upper : NLC_MARGIN);
+    out->info.residual = NLC_SAFETY * s.ratio / (out->info.lambda_upper < 1 ? 1 - out->info.lambda_upper : NLC_MARGIN);
     if (v == DONE && out->info.residual > n->settings.tolerance) out->info.residual = n->settings.tolerance; /* by rounding */
     out->info.worst_contact = s.where;
     if (v == GO_ON) {

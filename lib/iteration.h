@@ -71,9 +71,14 @@ void nlc_force_scales(nlc_iteration *q, bool iterate_too);
 double nlc_relative_size(const nlc_iteration *q, const double *values, int64_t *where);
 /* The residual in the local energy norm, relative to the scales; it sees what the largest component does not, see there. */
 double nlc_energy_residual(nlc_iteration *q);
+/* The same from the sum of z^2 / D and the largest slope D of every particle, whose largest forces are in n->largest. */
+double nlc_energy_ratio(const nlc_network *n, const double *sum, const double *top);
 
 /* weaken.c: the solution with weakened coupling, from the present iterate. */
 void nlc_weaken(nlc_iteration *q, nlc_outcome *outcome);
+
+/* The error is taken for no less than this times residual / (1 - lambda), see galerkin.c. */
+#define NLC_SAFETY 1.5
 
 /* The bound of lambda up to which a state counts as stable is 1 - this. */
 #define NLC_MARGIN 0.015

@@ -6,7 +6,7 @@
  * LANES particles are done at once: a pair of places in their lists is one piece of straight code, each pair of contacts is looked
  * at once, nothing is summed across lanes, and what a lane computes does not depend on the particles beside it.  To have about as
  * many contacts in all lanes, the particles of a window are sorted by their number of contacts.  Shorter lists are filled up with
- * contacts without force, inside the sphere and apart from each other, so that no arithmetic needs a mask.
+ * contacts without force, outside the sphere and far from all others, so that no arithmetic needs a mask.
  *
  * 1/sqrt(t) is an estimate y of the instruction set and one step of the series y (1-e)^(-1/2), e = 1 - t y^2: the largest
  * relative error found is 1.49 2^-53 (AVX2, t = 0x1.ffe70676fcff4p+1).  A particle with two directions closer than 2^-23 is done
@@ -23,8 +23,8 @@
  *     VARIANT   the row of the table, see variant.h
  *     TERMS     of the series
  * the type vec: LANES doubles; and
- *     set, load, store, sub, mul, min; muladd: ab + c; nmuladd: c - ab, both rounded once
- *     estimate: 1/sqrt(t) for 2^-101 < t < 64
+ *     set, load, store, sub, mul, div, min, max; muladd: ab + c; nmuladd: c - ab, both rounded once
+ *     estimate: 1/sqrt(t) for 2^-101 < t < 2^13
  * The memory of load and store is aligned to whole vectors.
  */
 #include "network.h"
@@ -38,6 +38,7 @@
 typedef struct place {
     _Alignas(8 * LANES) double x[LANES], y[LANES], z[LANES]; /* outward unit normal */
     double force[LANES];                                     /* times U */
+    double weight[LANES];                                    /* where it is asked for */
     double displacement[LANES];
 } place;
 
@@ -45,7 +46,7 @@ typedef struct group {
     place at[NLC_BLOCK];
     int64_t places, particle[LANES], begin[LANES], count[LANES]; /* of the particles' lists; places: the largest count */
     _Alignas(8 * LANES) double scale[LANES], c0[LANES], c1[LANES], c2[LANES];
-    double largest[LANES], closest[LANES]; /* |force|; squared distance */
+    double largest[LANES], closest[LANES], squares[LANES]; /* |force|; squared distance; see variant.h */
 } group;
 
 /* Where there are not enough particles the last one takes several lanes. */
@@ -66,41 +67,54 @@ static void choose(group *g, const nlc_network *n, const int32_t *particle, int 
     }
 }
 
-static void fill_lane(group *g, int l, const nlc_network *n, const double *force, const double *normal)
+static void set_direction(place *at, int l, const double *normal, int64_t e)
+{
+    const uint64_t sign = (uint64_t)e << 63;
+    const double *v = normal + 3 * (e >> 1);
+    at->x[l] = nlc_from_bits(nlc_bits(v[0]) ^ sign);
+    at->y[l] = nlc_from_bits(nlc_bits(v[1]) ^ sign);
+    at->z[l] = nlc_from_bits(nlc_bits(v[2]) ^ sign);
+}
+
+/* The lane's list is done: from here on there are contacts without force. */
+static void fill_up(group *g, int l)
+{
+    for (int64_t d = g->count[l]; d < g->places; d++) {
+        g->at[d].x[l] = 3 + (double)d;
+        g->at[d].y[l] = g->at[d].z[l] = g->at[d].force[l] = g->at[d].weight[l] = 0;
+    }
+}
+
+static void fill_lane(group *g, int l, const nlc_network *n, const double *force, const double *weighed, const double *normal)
 {
     const double scale = g->scale[l];
     double largest = 0;
     for (int64_t d = 0; d < g->count[l]; d++) {
         place *at = &g->at[d];
         const int64_t e = nlc_side_at(n, normal, g->begin[l] + d), c = e >> 1;
-        const uint64_t sign = (uint64_t)e << 63;
-        const double p = fabs(force[c]);
-        at->x[l] = nlc_from_bits(nlc_bits(normal[3 * c]) ^ sign);
-        at->y[l] = nlc_from_bits(nlc_bits(normal[3 * c + 1]) ^ sign);
-        at->z[l] = nlc_from_bits(nlc_bits(normal[3 * c + 2]) ^ sign);
-        at->force[l] = scale * force[c];
+        const double f = weighed ? weighed[2 * c] : force[c], p = fabs(f);
+        set_direction(at, l, normal, e);
+        at->force[l] = scale * f;
+        at->weight[l] = weighed ? weighed[2 * c + 1] : 0;
         largest = p > largest ? p : largest;
     }
     g->largest[l] = largest;
-    for (int64_t d = g->count[l]; d < g->places; d++) {
-        g->at[d].x[l] = (double)d / 256;
-        g->at[d].y[l] = g->at[d].z[l] = g->at[d].force[l] = 0;
-    }
+    fill_up(g, l);
 }
 
 /*
  * What the next group will want at one place of its lists, while this one is computed: without it the processor waits for memory
  * first and computes then.  Always inlined, for gcc takes a function that does no more than this for one without effect.
  */
-__attribute__((always_inline)) TARGET static inline void fetch(const nlc_network *n, const double *force, const double *normal,
-                                                               const int32_t *particle, int64_t d)
+__attribute__((always_inline)) TARGET static inline void fetch(const nlc_network *n, const double *force, int64_t stride,
+                                                               const double *normal, const int32_t *particle, int64_t d)
 {
     for (int l = 0; l < LANES; l++) {
         const int64_t p = n->start[particle[l]] + d;
         if (p >= n->start[particle[l] + 1]) continue;
         const int64_t e = n->entry[p], c = e >> 1;
         __builtin_prefetch(normal + 3 * c + 1);
-        __builtin_prefetch(force + c);
+        __builtin_prefetch(force + stride * c);
         __builtin_prefetch(n->side + e, 1);
     }
 }
@@ -114,27 +128,58 @@ TARGET static inline vec reciprocal_root(vec t)
     return muladd(mul(s, e), y, y);
 }
 
+/* [GC] 5 divided by the force and by U, of two contacts at the squared distance t. */
+TARGET static inline vec coefficient(vec t, vec c0, vec c1, vec c2)
+{
+    return muladd(reciprocal_root(t), muladd(c2, t, c0), c1);
+}
+
+TARGET static inline vec squared_distance(vec x, vec y, vec z, const place *b)
+{
+    const vec dx = sub(x, load(b->x)), dy = sub(y, load(b->y)), dz = sub(z, load(b->z));
+    return muladd(dz, dz, muladd(dy, dy, muladd(dx, dx, set(TINY))));
+}
+
 /* All pairs.  next: the particles of the next group, or NULL. */
-TARGET static void couple(group *g, const nlc_network *n, const double *from, const double *normal, const int32_t *next)
+__attribute__((always_inline)) TARGET static inline void couple(group *g, const nlc_network *n, const double *from, int64_t stride,
+                                                                const double *normal, const int32_t *next)
 {
     const vec c0 = load(g->c0), c1 = load(g->c1), c2 = load(g->c2);
-    vec closest = set(4);
+    vec closest = set(4), squares = set(0);
     for (int64_t c = 0; c < g->places; c++) {
         place *a = &g->at[c];
         const vec x = load(a->x), y = load(a->y), z = load(a->z), force = load(a->force);
-        vec sum = set(0);
-        if (next) fetch(n, from, normal, next, c);
+        vec sum = set(0), weight = set(0);
+        if (next) fetch(n, from, stride, normal, next, c);
         for (place *b = g->at; b < a; b++) {
-            const vec dx = sub(x, load(b->x)), dy = sub(y, load(b->y)), dz = sub(z, load(b->z));
-            const vec t = muladd(dz, dz, muladd(dy, dy, muladd(dx, dx, set(TINY))));
-            const vec k = muladd(reciprocal_root(t), muladd(c2, t, c0), c1);
+            const vec t = squared_distance(x, y, z, b), k = coefficient(t, c0, c1, c2);
             closest = min(closest, t);
             sum = muladd(k, load(b->force), sum);
             store(b->displacement, muladd(k, force, load(b->displacement)));
+            if (stride == 2) weight = muladd(mul(k, k), load(b->weight), weight);
         }
         store(a->displacement, sum);
+        if (stride == 2) squares = muladd(weight, load(a->weight), squares);
     }
     store(g->closest, closest);
+    store(g->squares, squares);
+}
+
+/* To the portable code; false: two directions are the same. */
+static bool leave(nlc_network *n, const double *force, const double *normal, int64_t k)
+{
+    n->norm[k] = n->scale[k] == 0 || n->start[k + 1] - n->start[k] < 2 ? 0 : INFINITY;
+    return nlc_displace_particle(n, NLC_OF_FORCES, force, normal, k);
+}
+
+TARGET static void couple_forces(group *g, const nlc_network *n, const double *force, const double *normal, const int32_t *next)
+{
+    couple(g, n, force, 1, normal, next);
+}
+
+TARGET static void couple_weighed(group *g, const nlc_network *n, const double *weighed, const double *normal, const int32_t *next)
+{
+    couple(g, n, weighed, 2, normal, next);
 }
 
 /* Hands the results out; returns the first particle with two contacts in the same direction, or -1. */
@@ -145,7 +190,9 @@ static int64_t empty(const group *g, nlc_network *n, const double *force, const 
         const int64_t k = g->particle[l];
         for (int64_t d = 0; d < g->count[l]; d++) n->side[nlc_side_at(n, normal, g->begin[l] + d)] = g->at[d].displacement[l];
         n->largest[k] = g->largest[l];
-        if (g->closest[l] < NEAR && !nlc_displace_particle(n, NLC_OF_FORCES, force, normal, k) && (bad < 0 || k < bad)) bad = k;
+        n->closest[k] = g->closest[l];
+        n->norm[k] = g->squares[l];
+        if (g->closest[l] < NEAR && !leave(n, force, normal, k) && (bad < 0 || k < bad)) bad = k;
     }
     return bad;
 }
@@ -173,33 +220,39 @@ static int sort(int32_t *sorted, const nlc_network *n, int64_t first, int64_t en
     return done_here;
 }
 
-static int64_t displace_window(nlc_network *n, const double *force, const double *normal, int64_t first, int64_t end)
+static int64_t displace_window(nlc_network *n, const double *force, const double *weighed, const double *normal, int64_t first,
+                               int64_t end)
 {
     group g;
     int32_t sorted[WINDOW];
     const int count = sort(sorted, n, first, end), all = (int)(end - first);
     int64_t bad = -1;
     for (int q = 0; q < count; q += LANES) {
-        const bool ahead = n->contact_count > FAR && q + 2 * LANES <= all;
+        const int32_t *next = n->contact_count > FAR && q + 2 * LANES <= all ? sorted + q + LANES : NULL;
         choose(&g, n, sorted + q, count - q);
-        for (int l = 0; l < LANES; l++) fill_lane(&g, l, n, force, normal);
-        couple(&g, n, force, normal, ahead ? sorted + q + LANES : NULL);
+        for (int l = 0; l < LANES; l++) fill_lane(&g, l, n, force, weighed, normal);
+        if (weighed)
+            couple_weighed(&g, n, weighed, normal, next);
+        else
+            couple_forces(&g, n, force, normal, next);
         const int64_t k = empty(&g, n, force, normal);
         if (k >= 0 && (bad < 0 || k < bad)) bad = k;
     }
     for (int q = count; q < all; q++) {
         const int64_t k = sorted[q];
-        if (!nlc_displace_particle(n, NLC_OF_FORCES, force, normal, k) && (bad < 0 || k < bad)) bad = k;
+        if (!leave(n, force, normal, k) && (bad < 0 || k < bad)) bad = k;
     }
     return bad;
 }
 
-static int64_t displace(nlc_network *n, const double *force, const double *normal)
+static int64_t displace(nlc_network *n, const double *force, const double *weighed, const double *normal)
 {
     int64_t bad = -1;
     for (int64_t w = 0; w < n->particle_count && bad < 0; w += WINDOW)
-        bad = displace_window(n, force, normal, w, n->particle_count - w > WINDOW ? w + WINDOW : n->particle_count);
+        bad = displace_window(n, force, weighed, normal, w, n->particle_count - w > WINDOW ? w + WINDOW : n->particle_count);
     return bad;
 }
 
-const nlc_variant VARIANT = {displace};
+#include "lanes_bound.h"
+
+const nlc_variant VARIANT = {displace, mark_above};

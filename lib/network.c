@@ -79,6 +79,7 @@ static size_t lay_out(nlc_network *n, char *memory)
     n->norm = take(memory, &used, n->particle_count, sizeof *n->norm);
     n->growth = take(memory, &used, n->particle_count, sizeof *n->growth);
     n->weakening = take(memory, &used, n->particle_count, sizeof *n->weakening);
+    n->closest = take(memory, &used, n->particle_count, sizeof *n->closest);
     n->changed = take(memory, &used, n->particle_count, sizeof *n->changed);
     lay_out_part(n, memory, &used);
     n->entry = take(memory, &used, 2 * n->contact_count, sizeof *n->entry);

@@ -65,6 +65,7 @@ struct nlc_network {
     double *slope;    /* [contacts] D = dP/dx in the same units */
     double *share;    /* [2 contacts] of the bound, see bound.h */
     double *bound, *norm, *growth, *weakening; /* [particles] */
+    double *closest; /* [particles] squared distance of the two closest directions in the last sweep; 0: not known */
     unsigned char *changed;                    /* [particles] */
     /* The part that is solved for, see active.h; it has no part of its own, and shares the work space of solvers */
     nlc_network *part;
@@ -142,6 +143,12 @@ static inline void nlc_set_units(nlc_network *n, int length, int stiffness)
  */
 nlc_status nlc_displace(nlc_network *network, nlc_response response, const double *force, const double *normal, int64_t *culprit);
 
+/* nlc_displace of forces; their weights are beside them in network->share, and a variant looks at them, see there. */
+nlc_status nlc_displace_weighed(nlc_network *network, const double *normal, int64_t *culprit);
+
+/* The variant of the sweep's inner loop; NULL: the portable code. */
+const nlc_variant *nlc_variant_of(const nlc_network *network);
+
 /* The same for the sides of one particle.  False: two directions are the same. */
 bool nlc_displace_particle(nlc_network *network, nlc_response response, const double *force, const double *normal,
                            int64_t particle);
@@ -183,6 +190,12 @@ void nlc_galerkin(nlc_network *network, const double *overlap, const double *nor
 
 /* loose.c: whether all forces are those of Hertz to the tolerance.  If so, sets residual, worst_contact and bounds of lambda. */
 bool nlc_is_loose(nlc_network *network, const double *overlap, const double *normal, nlc_outcome *outcome);
+
+/*
+ * warm.c: whether the displacements given solve the equations to the tolerance, after one sweep; if so they, anew, are in
+ * network->current, or there is an error.  If not, and network->swept, the sweep need not be done again.
+ */
+bool nlc_is_solved(nlc_network *network, const double *overlap, const double *normal, const double *nonlocal, nlc_outcome *outcome);
 
 /* close.c: whether somewhere the circles of two contacts with network->current overlap. */
 bool nlc_circles_overlap(const nlc_network *network, const double *overlap, const double *normal);

@@ -23,15 +23,38 @@ static double swept(const nlc_network *n, int64_t c)
     return n->side[2 * c] + n->side[2 * c + 1];
 }
 
-/* Forces, and displacements by them; marks those that change.  The largest relative change; -1: there is no telling. */
-static double find_changes(nlc_network *n, const double *overlap, const double *normal, int64_t *moving)
+/* What a sweep leaves of the forces. */
+static void set_largest(nlc_network *n)
+{
+    for (int64_t k = 0; k < n->particle_count; k++) n->largest[k] = 0;
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        const int64_t i = n->i[c], j = n->j[c];
+        const double p = n->force[c];
+        if (i < n->particle_count && p > n->largest[i]) n->largest[i] = p;
+        if (j < n->particle_count && p > n->largest[j]) n->largest[j] = p;
+    }
+}
+
+/* Forces, and displacements by them. */
+static bool sweep(nlc_network *n, const double *overlap, const double *normal, nlc_outcome *out)
 {
     int64_t culprit;
-    double most = 0;
-    *moving = 0;
     nlc_set_units(n, 0, 0);
     for (int64_t c = 0; c < n->contact_count; c++) n->force[c] = nlc_law(n->stiffness[c], overlap[c] + n->current[c]);
-    if (nlc_displace(n, NLC_OF_FORCES, n->force, normal, &culprit) != NLC_OK) return -1;
+    if (n->swept) {
+        set_largest(n);
+        return true;
+    }
+    out->info.sweeps++;
+    n->swept = nlc_displace(n, NLC_OF_FORCES, n->force, normal, &culprit) == NLC_OK;
+    return n->swept;
+}
+
+/* Marks those that change; the largest relative change. */
+static double find_changes(nlc_network *n, const double *overlap, int64_t *moving)
+{
+    double most = 0;
+    *moving = 0;
     for (int64_t c = 0; c < n->contact_count; c++) {
         const double a = n->largest[n->i[c]], b = n->largest[n->j[c]], scale = a > b ? a : b;
         const double change = fabs(nlc_law(n->stiffness[c], overlap[c] + swept(n, c)) - n->force[c]);
@@ -96,10 +119,8 @@ void nlc_settle_region(nlc_network *n, const double *overlap, const double *norm
     nlc_outcome part = {NLC_OK, nlc_new_info()};
     if (n->contact_count < FEWEST || !nlc_is_linear(n->settings.model->shape)) return;
     if (nlc_largest_magnitude(n->current, n->contact_count) <= 0) return; /* nothing is known yet */
-    const double change = find_changes(n, overlap, normal, &moving);
-    out->info.sweeps++;
-    if (change < 0) return;
-    n->swept = true;
+    if (!sweep(n, overlap, normal, out)) return;
+    const double change = find_changes(n, overlap, &moving);
     if (change <= AS_GOOD * n->settings.tolerance || (double)moving > MOVING * (double)n->contact_count) return;
     count = add_seam(n, layers_for(change / (QUIET * n->settings.tolerance)));
     if ((double)count > REGION * (double)n->contact_count) return;

@@ -35,6 +35,18 @@ double nlc_relative_size(const nlc_iteration *q, const double *values, int64_t *
     return worst;
 }
 
+double nlc_energy_ratio(const nlc_network *n, const double *sum, const double *top)
+{
+    double worst = 0;
+    for (int64_t k = 0; k < n->particle_count; k++) {
+        const double v = ENERGY * sqrt(sum[k] * top[k]);
+        const double ratio = nlc_ratio(v, n->largest[k]);
+        /* a particle without force has no scale of its own; its contacts have that of their other particle */
+        if (n->largest[k] > 0 && ratio > worst) worst = ratio;
+    }
+    return worst;
+}
+
 /*
  * Where slopes on a particle differ strongly (two contacts next to each other, one nearly open) the error can be many times
  * the largest residual over 1 - lambda.  (max D sum z^2 / D)^1/2 over the particle sees that.
@@ -42,7 +54,7 @@ double nlc_relative_size(const nlc_iteration *q, const double *values, int64_t *
 double nlc_energy_residual(nlc_iteration *q)
 {
     nlc_network *n = q->n;
-    double worst = 0, *sum = n->norm, *top = n->growth;
+    double *sum = n->norm, *top = n->growth;
     for (int64_t k = 0; k < n->particle_count; k++) sum[k] = top[k] = 0;
     for (int64_t c = 0; c < n->contact_count; c++) {
         const double y = nlc_scaled_overlap(q, c), z = n->direction[0][c];
@@ -55,11 +67,5 @@ double nlc_energy_residual(nlc_iteration *q)
             if (slope > top[end[side]]) top[end[side]] = slope;
         }
     }
-    for (int64_t k = 0; k < n->particle_count; k++) {
-        const double v = ENERGY * sqrt(sum[k] * top[k]);
-        const double ratio = nlc_ratio(v, n->largest[k]);
-        /* a particle without force has no scale of its own; its contacts have that of their other particle */
-        if (n->largest[k] > 0 && ratio > worst) worst = ratio;
-    }
-    return worst;
+    return nlc_energy_ratio(n, sum, top);
 }

@@ -50,8 +50,13 @@ static double start_of(const nlc_network *n, int64_t c, const double *overlap, c
 
 static void start_from(nlc_network *n, const double *overlap, const double *nonlocal)
 {
+    bool capped = false;
     largest_overlaps(n, overlap);
-    for (int64_t c = 0; c < n->contact_count; c++) n->current[c] = start_of(n, c, overlap, nonlocal);
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        n->current[c] = start_of(n, c, overlap, nonlocal);
+        capped |= nonlocal && nlc_bits(n->current[c]) != nlc_bits(nonlocal[c]);
+    }
+    n->swept &= !capped;
 }
 
 static bool all_zero(const double *values, int64_t count)
@@ -166,7 +171,8 @@ static void accelerated(nlc_network *n, const double *overlap, const double *nor
 {
     /* where contact points move, displacements of sides are wanted, which are known of whole networks only */
     const bool whole = n->settings.model->shape == NLC_SHAPE_PLACE;
-    if (!whole && (nlc_mark_active(n, overlap) <= n->contact_count / 4 * 3 || !n->connected)) {
+    /* a sweep that has been done (warm.c) was one of a whole network with few contacts to leave out */
+    if (!whole && !n->swept && (nlc_mark_active(n, overlap) <= n->contact_count / 4 * 3 || !n->connected)) {
         by_clusters(n, overlap, normal, nonlocal, out);
         return;
     }
@@ -178,6 +184,11 @@ static void accelerated(nlc_network *n, const double *overlap, const double *nor
 
 static void iterate(nlc_network *n, const double *overlap, const double *normal, const double *nonlocal, nlc_outcome *out)
 {
+    n->swept = false;
+    if (n->settings.method == NLC_METHOD_AUTOMATIC && nlc_is_solved(n, overlap, normal, nonlocal, out)) {
+        warn_if_close(n, overlap, normal, out);
+        return;
+    }
     start_from(n, overlap, nonlocal);
     if (n->settings.method != NLC_METHOD_FIXED_POINT) {
         accelerated(n, overlap, normal, nonlocal, out);

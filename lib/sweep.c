@@ -86,6 +86,7 @@ bool nlc_displace_particle(nlc_network *n, nlc_response response, const double *
         store(&a, n, response, force, normal, particle, begin);
     }
     n->largest[particle] = largest;
+    n->closest[particle] = 0;
     return distinct;
 }
 
@@ -137,16 +138,32 @@ static int64_t displace_all(nlc_network *n, nlc_response response, const double 
     return -1;
 }
 
+const nlc_variant *nlc_variant_of(const nlc_network *n)
+{
+    return n->settings.model->within == nlc_case_one_within ? n->settings.variant : NULL;
+}
+
+static nlc_status displace(nlc_network *n, nlc_response response, const double *force, const double *weighed, const double *normal,
+                           int64_t *culprit)
+{
+    const nlc_variant *variant = nlc_variant_of(n);
+    *culprit = -1;
+    if (n->settings.model->within && !in_range(n, force, normal)) return NLC_ERROR_RANGE;
+    const int64_t bad = variant ? variant->displace(n, force, weighed, normal) : displace_all(n, response, force, normal);
+    if (bad >= 0) *culprit = nlc_find_coincident(n, normal, bad);
+    return bad >= 0 ? NLC_ERROR_COINCIDENT : NLC_OK;
+}
+
 nlc_status nlc_displace(nlc_network *network, nlc_response response, const double *force, const double *normal, int64_t *culprit)
 {
     const nlc_shape shape = network->settings.model->shape;
-    *culprit = -1;
-    if (network->settings.model->within && !in_range(network, force, normal)) return NLC_ERROR_RANGE;
     if (response <= NLC_OF_STATE && (shape == NLC_SHAPE_MOMENTS || shape == NLC_SHAPE_RADIUS)) nlc_set_approach(network, force);
-    const nlc_variant *variant = network->settings.model->within == nlc_case_one_within ? network->settings.variant : NULL;
-    const int64_t bad = variant ? variant->displace(network, force, normal) : displace_all(network, response, force, normal);
-    if (bad >= 0) *culprit = nlc_find_coincident(network, normal, bad);
-    return bad >= 0 ? NLC_ERROR_COINCIDENT : NLC_OK;
+    return displace(network, response, force, NULL, normal, culprit);
+}
+
+nlc_status nlc_displace_weighed(nlc_network *network, const double *normal, int64_t *culprit)
+{
+    return displace(network, NLC_OF_FORCES, network->force, network->share, normal, culprit);
 }
 
 nlc_status nlc_sweep(nlc_network *network, double *NLC_RESTRICT displacement, const double *NLC_RESTRICT force,

@@ -22,8 +22,15 @@
 typedef struct nlc_variant {
     /*
      * nlc_displace of Case I, from the range check on.  Returns the first particle with two contacts in the same direction, or -1.
+     * Sets network->closest; and, from weighed [contacts][2], the forces again with a weight w beside each, or NULL, network->norm:
+     * the sum of k^2 w w over the pairs of a particle, k their coefficient without U; INFINITY where it is not known.
      */
-    int64_t (*displace)(nlc_network *network, const double *force, const double *normal);
+    int64_t (*displace)(nlc_network *network, const double *force, const double *weighed, const double *normal);
+    /*
+     * Whether the blocks (bound.h) of the particles from first to end have eigenvalues below a limit only: network->changed is 0
+     * where that is so, 1 where it is not or is left open.  root [contacts][2]: (U D / share)^1/2 of each side.
+     */
+    void (*mark_above)(nlc_network *network, const double *root, const double *normal, double limit, int64_t first, int64_t end);
 } nlc_variant;
 
 #ifdef NLC_HAVE_X86

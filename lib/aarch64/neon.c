@@ -17,7 +17,9 @@ typedef float64x2_t vec;
 #define store(p, a) vst1q_f64(p, a)
 #define sub(a, b) vsubq_f64(a, b)
 #define mul(a, b) vmulq_f64(a, b)
+#define div(a, b) vdivq_f64(a, b)
 #define min(a, b) vminq_f64(a, b)
+#define max(a, b) vmaxq_f64(a, b)
 #define muladd(a, b, c) vfmaq_f64(c, a, b)
 #define nmuladd(a, b, c) vfmsq_f64(c, a, b)
 
