@@ -649,7 +649,8 @@ NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *opti
  * apart (info.clusters), and what overlaps in one changes no bit in another; and a scene so loose that Hertz's forces can be
  * proved to be within the tolerance is not solved for at all: then sweeps = 0, residual is the proved error, and nonlocal 0.
  * (That is decided for the scene as a whole, as is which candidates are looked at when all of nonlocal[] is 0: another cluster that
- * makes the difference there may move forces, within the tolerance.)
+ * makes the difference there may move forces, within the tolerance.)  Displacements of the last steps that are good enough already
+ * cost one sweep and no more: a step of a slowly moving scene is about twice as dear as its sweep.
  *
  * Models.  In NLC_MODEL_SPHERE the coefficients depend on the forces, but there is an energy, and all of the above holds with the
  * coupling of its tangent in the place of C, what a contact's force does to the contact itself included.  NLC_MODEL_LOVE and

@@ -63,14 +63,12 @@ static void set_roots(nlc_network *n)
         }
 }
 
-#define PIECE 512 /* particles; the first one above ends it */
-
 bool nlc_bound_below(nlc_network *n, const double *normal, double beta, nlc_bound *result)
 {
     first_shares(n);
     set_roots(n);
-    for (int64_t first = 0; first < n->particle_count; first += PIECE) {
-        const int64_t end = n->particle_count - first > PIECE ? first + PIECE : n->particle_count;
+    for (int64_t first = 0; first < n->particle_count; first += NLC_WINDOW) {
+        const int64_t end = n->particle_count - first > NLC_WINDOW ? first + NLC_WINDOW : n->particle_count;
         mark_above(n, normal, beta, first, end);
         for (int64_t k = first; k < end; k++) {
             if (is_below(n, normal, k, beta, result)) continue;

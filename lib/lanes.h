@@ -24,12 +24,11 @@
  *     TERMS     of the series
  * the type vec: LANES doubles; and
  *     set, load, store, sub, mul, div, min, max; muladd: ab + c; nmuladd: c - ab, both rounded once
- *     estimate: 1/sqrt(t) for 2^-101 < t < 2^13
+ *     estimate: 1/sqrt(t) for 2^-101 < t < 2^15
  * The memory of load and store is aligned to whole vectors.
  */
 #include "network.h"
 
-#define WINDOW 512
 #define NEAR 0x1p-46  /* squared distance that is left to the portable code */
 #define TINY 0x1p-100 /* keeps t from 0; too small to change a t from NEAR on */
 #define FAR 20000     /* of so few contacts everything is in the second cache: to fetch it ahead would cost more than it saves */
@@ -80,7 +79,7 @@ static void set_direction(place *at, int l, const double *normal, int64_t e)
 static void fill_up(group *g, int l)
 {
     for (int64_t d = g->count[l]; d < g->places; d++) {
-        g->at[d].x[l] = 3 + (double)d;
+        g->at[d].x[l] = 2 + 2 * (double)d;
         g->at[d].y[l] = g->at[d].z[l] = g->at[d].force[l] = g->at[d].weight[l] = 0;
     }
 }
@@ -208,7 +207,7 @@ static int length_of(const nlc_network *n, int64_t k)
 static int sort(int32_t *sorted, const nlc_network *n, int64_t first, int64_t end)
 {
     int at[NLC_BLOCK + 1] = {0}, total = 0;
-    unsigned char length[WINDOW];
+    unsigned char length[NLC_WINDOW];
     for (int64_t k = first; k < end; k++) at[length[k - first] = (unsigned char)length_of(n, k)]++;
     for (int z = NLC_BLOCK; z >= 0; z--) {
         const int count = at[z];
@@ -224,7 +223,7 @@ static int64_t displace_window(nlc_network *n, const double *force, const double
                                int64_t end)
 {
     group g;
-    int32_t sorted[WINDOW];
+    int32_t sorted[NLC_WINDOW];
     const int count = sort(sorted, n, first, end), all = (int)(end - first);
     int64_t bad = -1;
     for (int q = 0; q < count; q += LANES) {
@@ -248,8 +247,8 @@ static int64_t displace_window(nlc_network *n, const double *force, const double
 static int64_t displace(nlc_network *n, const double *force, const double *weighed, const double *normal)
 {
     int64_t bad = -1;
-    for (int64_t w = 0; w < n->particle_count && bad < 0; w += WINDOW)
-        bad = displace_window(n, force, weighed, normal, w, n->particle_count - w > WINDOW ? w + WINDOW : n->particle_count);
+    for (int64_t w = 0; w < n->particle_count && bad < 0; w += NLC_WINDOW)
+        bad = displace_window(n, force, weighed, normal, w, n->particle_count - w > NLC_WINDOW ? w + NLC_WINDOW : n->particle_count);
     return bad;
 }
 

@@ -80,7 +80,7 @@ static void mark_above(nlc_network *n, const double *root, const double *normal,
 {
     group g;
     triangle A;
-    int32_t sorted[WINDOW];
+    int32_t sorted[NLC_WINDOW];
     const int count = sort(sorted, n, first, end);
     for (int64_t k = first; k < end; k++) n->changed[k] = n->scale[k] != 0;
     for (int q = 0; q < count; q += LANES) {

@@ -19,6 +19,8 @@
 #define NLC_HAVE_NEON 1
 #endif
 
+#define NLC_WINDOW 512 /* particles that are looked at together */
+
 typedef struct nlc_variant {
     /*
      * nlc_displace of Case I, from the range check on.  Returns the first particle with two contacts in the same direction, or -1.
@@ -27,7 +29,7 @@ typedef struct nlc_variant {
      */
     int64_t (*displace)(nlc_network *network, const double *force, const double *weighed, const double *normal);
     /*
-     * Whether the blocks (bound.h) of the particles from first to end have eigenvalues below a limit only: network->changed is 0
+     * Whether the blocks (bound.h) of the particles from first to end, a window at most, have eigenvalues below a limit only: network->changed is 0
      * where that is so, 1 where it is not or is left open.  root [contacts][2]: (U D / share)^1/2 of each side.
      */
     void (*mark_above)(nlc_network *network, const double *root, const double *normal, double limit, int64_t first, int64_t end);

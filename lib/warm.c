@@ -15,15 +15,15 @@
 #define GROWTH 1.01  /* weights are those of overlaps larger by this factor ... */
 #define MORE 1e-4    /* ... and this, in units of about the largest overlap: none may grow beyond */
 
-/* What a start has to be worth looking at: displacements of about the right size, most contacts with a force, one cluster. */
-static bool may_do(const nlc_network *n, const double *overlap, const double *nonlocal)
+/* What a start has to be worth looking at: displacements of about the right size, half of the contacts with a force, one cluster. */
+static bool may_do(const nlc_network *n, const double *overlap, const double *nonlocal, int64_t *active)
 {
     const double largest = nlc_largest_magnitude(nonlocal, n->contact_count);
-    int64_t active = 0;
+    *active = 0;
     if (!n->connected || !n->settings.model->potential || !nlc_is_linear(n->settings.model->shape) || largest <= 0) return false;
     if (largest / LARGEST > nlc_largest_magnitude(overlap, n->contact_count)) return false;
-    for (int64_t c = 0; c < n->contact_count; c++) active += overlap[c] + nonlocal[c] > 0;
-    return active > n->contact_count / 4 * 3;
+    for (int64_t c = 0; c < n->contact_count; c++) *active += overlap[c] + nonlocal[c] > 0;
+    return *active > n->contact_count / 2;
 }
 
 static double weighed_overlap(double y)
@@ -132,7 +132,8 @@ bool nlc_is_solved(nlc_network *n, const double *overlap, const double *normal, 
     nlc_iteration q;
     nlc_info info = out->info;
     const double tolerance = n->settings.tolerance;
-    if (!may_do(n, overlap, nonlocal)) return false;
+    int64_t active;
+    if (!may_do(n, overlap, nonlocal, &active)) return false;
     nlc_iteration_units(&q, n, overlap, normal, 1);
     start(&q, nonlocal);
     out->info.sweeps++;
@@ -142,7 +143,7 @@ bool nlc_is_solved(nlc_network *n, const double *overlap, const double *normal, 
     if (r.lost) return false;
     const double upper = bound(&q, &info.critical_particle), limit = 1 - NLC_SAFETY * r.ratio / tolerance;
     if (r.grown || upper > (limit < 1 - NLC_MARGIN ? limit : 1 - NLC_MARGIN)) {
-        hand_over(&q);
+        if (active > n->contact_count / 4 * 3) hand_over(&q); /* else contacts are left out */
         return false;
     }
     info.sweeps = out->info.sweeps;

@@ -7,6 +7,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "../lib/block.h"
 #include "../lib/network.h"
 #include "scene.h"
 
@@ -336,6 +337,100 @@ START_TEST(prefactor)
 }
 END_TEST
 
+/* ---- bounds of eigenvalues */
+
+static int64_t list_length(const nlc_network *n, int64_t k)
+{
+    return n->start[k + 1] - n->start[k];
+}
+
+static void mark_above(nlc_network *n, const double *root, const double *normal, double limit)
+{
+    for (int64_t k = 0; k < n->particle_count; k += NLC_WINDOW)
+        n->settings.variant->mark_above(n, root, normal, limit, k, k + NLC_WINDOW < n->particle_count ? k + NLC_WINDOW : n->particle_count);
+}
+
+/*
+ * Blocks with random slopes and shares: their largest eigenvalue, as the portable code finds it, is below a limit 1e-9 above it and
+ * not below one 1e-9 below it.  Both decompositions are backward stable: some 24 2^-53 times the block's norm, which is at most
+ * sqrt(24) times its largest eigenvalue in size here (positive and negative ones are about alike).
+ */
+START_TEST(blocks)
+{
+    rng g = {37};
+    scene s;
+    stars(&s, &g, 60, 1, 30);
+    s.options.simd = _i;
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    nlc_network *n = s.network;
+    const nlc_variant *v = n->settings.variant;
+    double *root = malloc(2 * (size_t)s.contacts * sizeof *root);
+    ck_assert_ptr_nonnull(root);
+    nlc_set_units(n, 0, 0);
+    for (int64_t c = 0; c < s.contacts; c++) {
+        n->slope[c] = rng_below(&g, 6) ? rng_uniform(&g, 0, 1) * 1e9 : 0;
+        n->share[2 * c] = rng_uniform(&g, 0.1, 0.9);
+        n->share[2 * c + 1] = 1 - n->share[2 * c];
+        for (int side = 0; side < 2; side++)
+            root[2 * c + side] = sqrt(nlc_yield_of(n, side ? n->j[c] : n->i[c]) * n->slope[c] / n->share[2 * c + side]);
+    }
+    int shown = 0;
+    for (int64_t k = 0; v && k < n->particle_count; k++) {
+        const double b = nlc_block_eigenvalue(n, s.normal, k);
+        if (list_length(n, k) < 2 || b <= 0) continue;
+        nlc_assert_quiet(mark_above(n, root, s.normal, b * (1 - 1e-9)));
+        ck_assert_int_eq(n->changed[k], 1);
+        nlc_assert_quiet(mark_above(n, root, s.normal, b * (1 + 1e-9)));
+        ck_assert(!n->changed[k] || list_length(n, k) > 24 - 8); /* it may be left open, but only a long one, or one beside it */
+        shown += !n->changed[k];
+    }
+    ck_assert(!v || shown > 30);
+    free(root);
+    scene_free(&s);
+}
+END_TEST
+
+/* What a sweep finds beside the displacements: the distance of the closest two directions, and the sum of squares. */
+START_TEST(beside_the_sweep)
+{
+    rng g = {38};
+    scene s;
+    stars(&s, &g, 60, 1, 70);
+    s.options.simd = _i;
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    nlc_network *n = s.network;
+    int64_t culprit;
+    nlc_set_units(n, 0, 0);
+    for (int64_t c = 0; c < s.contacts; c++) {
+        n->force[c] = n->share[2 * c] = rng_uniform(&g, 0, 1) * 1e4;
+        n->share[2 * c + 1] = rng_uniform(&g, 0, 1);
+    }
+    nlc_assert_quiet(ck_assert_int_eq(nlc_displace_weighed(n, s.normal, &culprit), NLC_OK));
+    for (int64_t k = 0; k < n->particle_count; k++) {
+        long double squares = 0, closest = 4;
+        const nlc_material m = s.rows[s.material[k]];
+        for (int64_t p = n->start[k]; p < n->start[k + 1]; p++)
+            for (int64_t q = n->start[k]; q < p; q++) {
+                const int64_t e = n->entry[p], f = n->entry[q];
+                long double t = 0;
+                for (int x = 0; x < 3; x++) {
+                    const long double d = nlc_outward(e) * (long double)s.normal[3 * (e >> 1) + x] - nlc_outward(f) * (long double)s.normal[3 * (f >> 1) + x];
+                    t += d * d;
+                }
+                const long double r = 1 / sqrtl(t), w = (long double)n->share[e | 1] * n->share[f | 1];
+                const long double c = -4 * (1 - (long double)m.poisson) * r - 2 * (1 - 2 * (long double)m.poisson) + (7 - 8 * (long double)m.poisson) / 2 * t * r;
+                squares += c * c * w;
+                closest = t < closest ? t : closest;
+            }
+        if (n->closest[k] > 0) nlc_assert_rel(n->closest[k], closest, 1e-14); /* a few roundings */
+        if (!nlc_variant_of(n) || isinf(m.young) || n->norm[k] >= INFINITY) continue;
+        nlc_assert_rel(n->norm[k], squares, 1e-13); /* coefficients to some 1e-15, which cancel by a factor of a few */
+        ck_assert(n->closest[k] > 0);
+    }
+    scene_free(&s);
+}
+END_TEST
+
 START_TEST(choice)
 {
     ck_assert_ptr_null(nlc_choose_variant(NLC_SIMD_GENERIC));
@@ -365,6 +460,8 @@ int main(void)
     tcase_add_loop_test(t, near_coincidences, FIRST, LAST);
     tcase_add_loop_test(t, solutions, FIRST, LAST);
     tcase_add_loop_test(t, prefactor, FIRST, LAST);
+    tcase_add_loop_test(t, blocks, FIRST, LAST);
+    tcase_add_loop_test(t, beside_the_sweep, FIRST, LAST);
     time_limit(t, 60);
     suite_add_tcase(suite, t);
     return run_suite(suite);

@@ -215,6 +215,78 @@ START_TEST(after_fixed_point)
 }
 END_TEST
 
+/* ---- starts that are the solution already */
+
+static const int simds[] = {NLC_SIMD_GENERIC, NLC_SIMD_BEST};
+
+/*
+ * A ring of spheres: lambda is 3/2 k x^(1/2) (1+nu)(3-2nu) / (2 pi R E) ([GC] 11), and the bound that comes with the one sweep is
+ * exact but for the overlaps' room to grow: 1.01, and 1e-4 of an overlap that is at least 1 in its unit, the root of it.
+ */
+START_TEST(ring_has_its_bound)
+{
+    const double R = 0.01, E = 1.85e6, nu = 0.1 * _i;
+    for (int simd = 0; simd < 2; simd++)
+        for (double eps = 1e-6; eps < 0.2; eps *= 3) {
+            scene s;
+            nlc_info info = {.struct_size = sizeof info};
+            scene_init(&s);
+            s.options.simd = simds[simd];
+            s.options.tolerance = 1e-10;
+            for (int k = 0; k < 7; k++) scene_particle(&s, R, scene_material(&s, E, nu));
+            for (int k = 0; k < 7; k++) scene_contact(&s, k, (k + 1) % 7, 2 * R * eps, 0, 0, 1);
+            ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+            s.options.tolerance = 1e-7;
+            ck_assert_int_eq(nlc_set_options(s.network, &s.options, 0), NLC_OK);
+            const double k = nlc_hertz_stiffness(E, nu, R, E, nu, R), x = nlc_hertz_overlap(k, s.force[0]);
+            const double lambda = 1.5 * k * sqrt(x) * (1 + nu) * (3 - 2 * nu) / (2 * acos(-1) * R * E);
+            ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+            if (info.sweeps == 0) ck_assert(eps < 1e-5); /* Hertz was proved to do */
+            ck_assert_int_le(info.sweeps, 1);
+            ck_assert_int_eq(info.blocks, 0);
+            ck_assert(info.lambda_upper >= lambda * (1 - 1e-6)); /* x is that of the tolerance */
+            if (info.sweeps > 0) ck_assert(info.lambda_upper <= lambda * sqrt(1.0102));
+            scene_free(&s);
+        }
+}
+END_TEST
+
+/*
+ * Starts ever closer to the solution: what is accepted is within the tolerance, and the closest are accepted after one sweep (but
+ * in the loosest packing, which is more than one cluster).
+ */
+START_TEST(accepted_starts)
+{
+    static const char *const name[] = {"b_die125_rd0.56.csv", "b_die125_rd0.80.csv", "c_hydrogel514_strain13.csv", "a_mono1000_periodic.csv"};
+    rng g = {(uint64_t)_i + 50};
+    scene s;
+    nlc_info info = {.struct_size = sizeof info};
+    scene_init(&s);
+    scene_packing(&s, name[_i / 2], 0.05);
+    s.options.simd = simds[_i % 2];
+    const double tolerance = 1e-5;
+    long double *exact = malloc((size_t)s.contacts * sizeof *exact);
+    double *best = malloc((size_t)s.contacts * sizeof *best), largest = 0;
+    ck_assert(scene_oracle(&s, 1, exact) < 1e-15L);
+    s.options.tolerance = 1e-12;
+    ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+    s.options.tolerance = tolerance;
+    ck_assert_int_eq(nlc_set_options(s.network, &s.options, 0), NLC_OK);
+    memcpy(best, s.nonlocal, (size_t)s.contacts * sizeof *best);
+    for (int64_t c = 0; c < s.contacts; c++) largest = fmax(largest, fabs(s.overlap[c]));
+    for (double noise = 1e-2; noise > 1e-9; noise /= 2) {
+        for (int64_t c = 0; c < s.contacts; c++) s.nonlocal[c] = best[c] + noise * largest * rng_uniform(&g, -1, 1);
+        nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, &info), NLC_OK));
+        ck_assert(scene_error(&s, s.force, exact) <= tolerance);
+        ck_assert(info.residual <= tolerance);
+        if (noise < 3e-8 && _i > 1) ck_assert_int_eq(info.sweeps, 1);
+        if (noise < 3e-8 && _i > 3) ck_assert_int_eq(info.blocks, 0); /* nothing but that sweep */
+    }
+    free(exact), free(best);
+    scene_free(&s);
+}
+END_TEST
+
 /*
  * A compression of 1000 steps: overlaps change by 1e-4 of the largest a step.  From the last step's displacements it takes 5
  * sweeps to 1e-6, from predicted ones 1; and the error of the forces that belong to the start itself, which is what a host has
@@ -272,6 +344,8 @@ int main(void)
     tcase_add_test(t, nearly_one_place);
     tcase_add_test(t, slow_compression);
     tcase_add_test(t, after_fixed_point);
+    tcase_add_loop_test(t, ring_has_its_bound, 0, 6);
+    tcase_add_loop_test(t, accepted_starts, 0, 8);
     tcase_add_loop_test(t, beyond_the_end, 0, ENDING);
     suite_add_tcase(suite, t);
     return run_suite(suite);
