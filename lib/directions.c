@@ -20,58 +20,55 @@ static double dot(const double *a, const double *b, int count)
     return (s[0] + s[1]) + (s[2] + s[3]);
 }
 
-static double largest_of(const double *a, int count)
+/*
+ * Residuals z, and 1/D of the chord from the iterate to the force of the law, D = (Ph - P) / (y - (P/k)^(2/3)).  With s = y^(1/2) and
+ * r = (P/k)^(1/3) that is k (s^2 + s r + r^2) / (s + r), without cancellation.  One Halley step from s finds
+ * r = s (Ph + 2 P) / (2 Ph + P) where the two are close; elsewhere a cube root is taken.  All fractions, and the least D there may be,
+ * are put on one line: a division costs most here.
+ */
+static void residual(const nlc_iteration *q, int64_t c, double *z, double *inverse, double *force, nlc_extremes *extremes)
 {
-    double m[4] = {0, 0, 0, 0};
-    int c = 0;
-    for (; c + 3 < count; c += 4)
-        for (int l = 0; l < 4; l++) m[l] = a[c + l] > m[l] ? a[c + l] : m[l];
-    for (; c < count; c++) m[0] = a[c] > m[0] ? a[c] : m[0];
-    m[0] = m[0] > m[1] ? m[0] : m[1];
-    m[2] = m[2] > m[3] ? m[2] : m[3];
-    return m[0] > m[2] ? m[0] : m[2];
+    const double k = nlc_scaled_stiffness(q, c), y = nlc_scaled_overlap(q, c), iterate = q->n->force[c];
+    const double s = sqrt(0.5 * (y + fabs(y))), h = k * s * s * s, p = 0.5 * (iterate + fabs(iterate));
+    const double a = s * (h + 2 * p), b = 2 * h + p, sb = s * b;
+    const double below = (sb + a) * b + 1e-300, above = k * (sb * sb + sb * a + a * a), least = q->n->floor[c] * below;
+    *force = h;
+    *z = h - iterate;
+    *inverse = below / (above > least ? above : least);
+    extremes->residual = fabs(*z) > extremes->residual ? fabs(*z) : extremes->residual;
+    extremes->force = h > extremes->force ? h : extremes->force;
+    extremes->far |= iterate < 0 || iterate > NLC_FAR * h;
 }
 
-/*
- * Residuals z, and slopes of the chord from the iterate to the force of the law, D = (Ph - P) / (y - (P/k)^(2/3)).  With
- * s = y^(1/2) and r = (P/k)^(1/3) that is k (s^2 + s r + r^2) / (s + r), without cancellation.  One Halley step from s finds
- * r = s (Ph + 2 P) / (2 Ph + P) where the two are close (and the fractions are put on one line: a division costs most here);
- * elsewhere a cube root is taken.
- */
-static void residuals(const nlc_iteration *q, int64_t from, int count, double *z, double *slope, double *force)
+/* 1/D where the iterate is far from the force. */
+static double far_inverse(const nlc_iteration *q, int64_t c)
 {
-    const double *iterate = q->n->force + from;
-    int far = 0;
-    for (int c = 0; c < count; c++) {
-        const double k = nlc_scaled_stiffness(q, from + c), y = nlc_scaled_overlap(q, from + c);
-        const double s = sqrt(0.5 * (y + fabs(y))), h = k * s * s * s, p = 0.5 * (iterate[c] + fabs(iterate[c]));
-        const double a = s * (h + 2 * p), b = 2 * h + p, sb = s * b;
-        force[c] = h;
-        z[c] = h - iterate[c];
-        slope[c] = k * (sb * sb + sb * a + a * a) / ((sb + a) * b + 1e-300);
+    const double k = nlc_scaled_stiffness(q, c), y = nlc_scaled_overlap(q, c), iterate = q->n->force[c], floor = q->n->floor[c];
+    const double s = sqrt(0.5 * (y + fabs(y))), r = iterate < 0 ? 0 : cbrt(iterate / k);
+    const double slope = iterate < 0 ? 0 : k * (s * s + s * r + r * r) / (s + r + 1e-300);
+    return 1 / (slope > floor ? slope : floor);
+}
+
+static void residuals(nlc_iteration *q, int64_t from, int count, double *inverse)
+{
+    const nlc_variant *variant = q->n->settings.variant;
+    double force[CHUNK], *z = q->n->direction[0] + from;
+    nlc_extremes e = {q->largest_residual, q->largest_force, false};
+    for (int c = variant ? variant->residuals(q, from, count, z, inverse, force, &e) : 0; c < count; c++)
+        residual(q, from + c, z + c, inverse + c, force + c, &e);
+    for (int c = 0; c < count && e.far; c++) {
+        const double iterate = q->n->force[from + c];
+        if (iterate < 0 || iterate > NLC_FAR * force[c]) inverse[c] = far_inverse(q, from + c);
     }
-    for (int c = 0; c < count; c++) far += iterate[c] < 0 || iterate[c] > 8 * force[c];
-    for (int c = 0; c < count && far > 0; c++) {
-        if (iterate[c] >= 0 && iterate[c] <= 8 * force[c]) continue;
-        const double k = nlc_scaled_stiffness(q, from + c), y = nlc_scaled_overlap(q, from + c);
-        const double s = sqrt(0.5 * (y + fabs(y))), r = iterate[c] < 0 ? 0 : cbrt(iterate[c] / k);
-        slope[c] = iterate[c] < 0 ? 0 : k * (s * s + s * r + r * r) / (s + r + 1e-300);
-    }
+    q->largest_residual = e.residual;
+    q->largest_force = e.force;
 }
 
 static void evaluate_chunk(nlc_iteration *q, int64_t from, int count)
 {
     nlc_network *n = q->n;
-    double *z = n->direction[0] + from, inverse[CHUNK], slope[CHUNK], force[CHUNK], scaled[CHUNK];
-    residuals(q, from, count, z, slope, force);
-    for (int c = 0; c < count; c++) {
-        const double floor = n->floor[from + c];
-        inverse[c] = 1 / (slope[c] > floor ? slope[c] : floor);
-        scaled[c] = fabs(z[c]);
-    }
-    const double largest = largest_of(scaled, count), top = largest_of(force, count);
-    q->largest_residual = largest > q->largest_residual ? largest : q->largest_residual;
-    q->largest_force = top > q->largest_force ? top : q->largest_force;
+    double inverse[CHUNK], scaled[CHUNK];
+    residuals(q, from, count, inverse);
     for (int a = 0; a < q->directions; a++) {
         for (int c = 0; c < count; c++) scaled[c] = n->direction[a][from + c] * inverse[c];
         for (int b = 0; b <= a; b++) q->M[a][b] += dot(scaled, n->direction[b] + from, count);

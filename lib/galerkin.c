@@ -123,6 +123,17 @@ static verdict judge(nlc_iteration *q, progress *s, nlc_outcome *out)
     return certify(q, 1 - NLC_MARGIN, out) == DONE ? ROUNDED : BEYOND;
 }
 
+/* Whether no step exceeds the force that its contact would have with the largest overlap nearby. */
+static bool is_short(const nlc_iteration *q, const double *step)
+{
+    int64_t longer = 0;
+    for (int64_t c = 0; c < q->n->contact_count; c++) {
+        const double k = nlc_scaled_stiffness(q, c), slope = q->n->floor[c] / NLC_SLOPE_FLOOR; /* k x^1/2 */
+        longer += fabs(step[c]) * k * k > slope * slope * slope;
+    }
+    return longer == 0;
+}
+
 /* Cuts a first step that is longer than the forces are large. */
 static void shorten(nlc_iteration *q)
 {
@@ -132,6 +143,7 @@ static void shorten(nlc_iteration *q)
         step[c] = 0;
         for (int d = 0; d < q->directions; d++) step[c] += q->step[d] * q->n->direction[d][c];
     }
+    if (is_short(q, step)) return;
     nlc_force_scales(q, true);
     double longest = nlc_relative_size(q, step, &where);
     if (longest > LONGEST_STEP * SHORTEST) longest = LONGEST_STEP * SHORTEST;

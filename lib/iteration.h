@@ -8,7 +8,7 @@
 
 #include "network.h"
 
-typedef struct nlc_iteration {
+struct nlc_iteration {
     nlc_network *n;
     const double *overlap, *normal;
     double per_overlap, per_stiffness; /* 1 / unit */
@@ -19,13 +19,18 @@ typedef struct nlc_iteration {
     nlc_small M, K; /* W^T D^-1 W and W^T C W of the directions W */
     double step[NLC_DIRECTIONS], ritz[2][NLC_DIRECTIONS];
     double theta; /* largest Ritz value of the last step: at most lambda */
-} nlc_iteration;
+};
+
+#define NLC_SOFTEST 1e-150 /* softer contacts carry nothing, and this may be divided by */
 
 static inline double nlc_scaled_stiffness(const nlc_iteration *q, int64_t c)
 {
     const double k = q->n->stiffness[c] * q->per_stiffness;
-    return k > 1e-150 ? k : 1e-150; /* softer ones carry nothing, and may be divided by */
+    return k > NLC_SOFTEST ? k : NLC_SOFTEST;
 }
+
+/* No step assumes a slope below this part of k x^(1/2) at the largest overlap x nearby. */
+#define NLC_SLOPE_FLOOR 0.01
 
 /* No solution has overlap plus displacement beyond this. */
 #define NLC_FARTHEST 8192.0
@@ -50,6 +55,13 @@ void nlc_iteration_start(nlc_iteration *q, nlc_network *network, const double *o
 double nlc_overlap_nearby(const nlc_iteration *q, int64_t c);
 /* Back to the caller's units. */
 void nlc_iteration_end(nlc_iteration *q);
+
+/* What is seen of many residuals: the largest, the largest force, whether an iterate is below 0 or this many times the force. */
+struct nlc_extremes {
+    double residual, force;
+    bool far;
+};
+#define NLC_FAR 8
 
 /* directions.c: residual z of [GC] 10 into direction[0], its largest, and M. */
 void nlc_evaluate(nlc_iteration *q);

@@ -23,11 +23,11 @@
  *     VARIANT   the row of the table, see variant.h
  *     TERMS     of the series
  * the type vec: LANES doubles; and
- *     set, load, store, sub, mul, div, min, max; muladd: ab + c; nmuladd: c - ab, both rounded once
+ *     set, load, store, loadu, storeu, add, sub, mul, div, root, min, max; muladd: ab + c; nmuladd: c - ab, both rounded once
  *     estimate: 1/sqrt(t) for 2^-101 < t < 2^15
- * The memory of load and store is aligned to whole vectors.
+ * The memory of load and store is aligned to whole vectors, that of loadu and storeu to doubles.
  */
-#include "network.h"
+#include "iteration.h"
 
 #define NEAR 0x1p-46  /* squared distance that is left to the portable code */
 #define TINY 0x1p-100 /* keeps t from 0; too small to change a t from NEAR on */
@@ -253,5 +253,6 @@ static int64_t displace(nlc_network *n, const double *force, const double *weigh
 }
 
 #include "lanes_bound.h"
+#include "lanes_residuals.h"
 
-const nlc_variant VARIANT = {displace, mark_above};
+const nlc_variant VARIANT = {displace, mark_above, residuals};

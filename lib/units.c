@@ -2,9 +2,6 @@
 /* units.c - the units of an iteration, its start and its end. */
 #include "iteration.h"
 
-/* No step assumes a slope below this part of that at the largest overlap nearby. */
-#define SLOPE_FLOOR 0.01
-
 /* Minus the exponent of the power of 2^n that is next to x > 0 from below; 0 for 0. */
 static int per_unit_of(double x, int n)
 {
@@ -49,13 +46,13 @@ void nlc_iteration_start(nlc_iteration *q, nlc_network *n, const double *overlap
         n->force[c] = nlc_scaled_force(q, c);
         n->spare[2][c] = nlc_scaled_overlap(q, c); /* nlc_weaken comes back to it */
         if (n->swept) n->current[c] = (n->side[2 * c] + n->side[2 * c + 1]) * q->per_overlap;
-        n->floor[c] = SLOPE_FLOOR * nlc_scaled_stiffness(q, c) * sqrt(top > 1e-12 ? top : 1e-12);
+        n->floor[c] = NLC_SLOPE_FLOOR * nlc_scaled_stiffness(q, c) * sqrt(top > 1e-12 ? top : 1e-12);
     }
 }
 
 double nlc_overlap_nearby(const nlc_iteration *q, int64_t c)
 {
-    const double root = q->n->floor[c] / (SLOPE_FLOOR * nlc_scaled_stiffness(q, c));
+    const double root = q->n->floor[c] / (NLC_SLOPE_FLOOR * nlc_scaled_stiffness(q, c));
     return root * root;
 }
 

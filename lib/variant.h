@@ -21,6 +21,9 @@
 
 #define NLC_WINDOW 512 /* particles that are looked at together */
 
+typedef struct nlc_iteration nlc_iteration;
+typedef struct nlc_extremes nlc_extremes;
+
 typedef struct nlc_variant {
     /*
      * nlc_displace of Case I, from the range check on.  Returns the first particle with two contacts in the same direction, or -1.
@@ -33,6 +36,8 @@ typedef struct nlc_variant {
      * where that is so, 1 where it is not or is left open.  root [contacts][2]: (U D / share)^1/2 of each side.
      */
     void (*mark_above)(nlc_network *network, const double *root, const double *normal, double limit, int64_t first, int64_t end);
+    /* directions.c: of count contacts from one on: residuals, 1/D and forces of the law; returns how many of them are done. */
+    int (*residuals)(const nlc_iteration *q, int64_t from, int count, double *z, double *inverse, double *force, nlc_extremes *e);
 } nlc_variant;
 
 #ifdef NLC_HAVE_X86
