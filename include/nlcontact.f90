@@ -87,7 +87,7 @@ module nlcontact
     end type
 
     type, bind(c) :: nlc_options
-        integer(c_size_t) :: struct_size = 56
+        integer(c_size_t) :: struct_size = 72
         integer(c_int32_t) :: model = 0
         integer(c_int32_t) :: method = 0
         real(c_double) :: tolerance = 0
@@ -96,6 +96,8 @@ module nlcontact
         integer(c_int32_t) :: simd = 0
         integer(c_int32_t) :: points = 0
         type(c_ptr) :: stiffness = c_null_ptr
+        type(c_ptr) :: cache = c_null_ptr
+        integer(c_size_t) :: cache_size = 0
     end type
 
     type, bind(c) :: nlc_info
@@ -328,6 +330,12 @@ module nlcontact
             type(c_ptr), value :: network
             type(nlc_options), intent(in), optional :: options
             type(nlc_info), intent(inout), optional :: info
+        end function
+
+        function nlc_cache_size(network) bind(c)
+            import
+            integer(c_size_t) :: nlc_cache_size
+            type(c_ptr), value :: network
         end function
 
         function nlc_solve(network, force, nonlocal, overlap, normal, info) bind(c)

@@ -129,6 +129,7 @@ void nlc_build_part(nlc_network *n, const int64_t *origin, int64_t count, const 
 {
     nlc_network *p = n->part;
     p->settings = n->settings;
+    p->cached = n->cached = false; /* it is the same cache */
     p->stiffness_exponent = n->stiffness_exponent;
     p->coupling_exponent = n->coupling_exponent;
     p->particle_count = p->contact_count = p->body_count = 0;

@@ -75,6 +75,7 @@ nlc_status nlc_energy(nlc_network *network, double *NLC_RESTRICT energy, const d
     if ((record.culprit = nlc_first_not_unit(normal, count)) >= 0) return nlc_report(info, &record, NLC_ERROR_NORMAL);
     const int p = nlc_exponent_above(nlc_largest_magnitude(force, count));
     nlc_set_units(network, 0, 0);
+    network->cached = false;
     record.sweeps = 1;
     nlc_status status = nlc_displace(network, NLC_OF_FORCES, force, normal, &record.culprit);
     if (status != NLC_OK) return nlc_report(info, &record, status);

@@ -26,6 +26,8 @@ typedef struct nlc_block {
     double displacement[NLC_BLOCK]; /* added to, > 0 outward */
     double second[NLC_BLOCK];       /* NLC_SHAPE_MOMENTS: the second sum, likewise */
     double third[NLC_BLOCK];        /* the third one, if tilted */
+    double *kept; /* coefficients of a model that has such, all pairs of the block; NULL: none are kept */
+    bool known;   /* they are there already */
 } nlc_block;
 
 /* What a model has to know of a contact beside its direction and force. */
@@ -63,6 +65,7 @@ typedef struct nlc_model {
     const char *reference; /* authors, year, equations */
     const char *doi;
     const char *validity;
+    int kept;       /* numbers of a pair that do not depend on the forces and are worth keeping; 0: it is quicker to compute them */
     double cost;    /* of a sweep, in units of Case I's: make accuracy */
     bool symmetric; /* the tangent's coefficients of a pair are the same both ways */
     bool potential; /* the forces are the derivative of an energy */

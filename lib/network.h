@@ -25,6 +25,8 @@ typedef struct nlc_settings {
     int32_t number, method; /* number: of the model */
     double tolerance, prefactor;
     int64_t max_sweeps;
+    double *cache; /* the caller's, for coefficients; NULL: none */
+    size_t cache_size;
 } nlc_settings;
 
 struct nlc_network {
@@ -50,6 +52,7 @@ struct nlc_network {
     /* Units of what is being computed, see nlc_set_units */
     int length_unit, stiffness_unit;
     double unit; /* coefficients are multiplied by it */
+    bool cached; /* the cache holds the coefficients at the normals of this call */
     bool swept; /* side holds the displacements by the forces of current: the next iteration need not begin with a sweep */
     /* Work space; sides on walls stay 0 in side, walls in largest */
     double *side;     /* [2 contacts] displacement of each side */
@@ -149,7 +152,10 @@ nlc_status nlc_displace_weighed(nlc_network *network, const double *normal, int6
 /* The variant of the sweep's inner loop; NULL: the portable code. */
 const nlc_variant *nlc_variant_of(const nlc_network *network);
 
-/* The same for the sides of one particle.  False: two directions are the same. */
+/* Pairs of contacts on the same particle, but for particles with more than NLC_BLOCK. */
+int64_t nlc_count_pairs(const nlc_network *network);
+
+/* nlc_displace for the sides of one particle.  False: two directions are the same. */
 bool nlc_displace_particle(nlc_network *network, nlc_response response, const double *force, const double *normal,
                            int64_t particle);
 

@@ -29,6 +29,10 @@ nlc_status nlc_read_settings(nlc_settings *settings, const nlc_options *o, int64
     if (o->simd < NLC_SIMD_BEST || o->simd > NLC_SIMD_NEON) return NLC_ERROR_OPTION;
     *culprit = offsetof(nlc_options, points);
     if (o->points != NLC_POINTS_DEFORMED && o->points != NLC_POINTS_UNDEFORMED) return NLC_ERROR_OPTION;
+    *culprit = offsetof(nlc_options, cache_size);
+    if (!o->cache && o->cache_size > 0) return NLC_ERROR_OPTION;
+    *culprit = (int64_t)((uintptr_t)o->cache % sizeof(double));
+    if (*culprit != 0) return NLC_ERROR_ALIGNMENT;
     *culprit = -1;
     const bool undeformed = o->model == NLC_MODEL_HALF_SPACE && o->points == NLC_POINTS_UNDEFORMED;
     settings->model = undeformed ? &nlc_half_space_undeformed : &nlc_models[o->model];
@@ -37,6 +41,8 @@ nlc_status nlc_read_settings(nlc_settings *settings, const nlc_options *o, int64
     settings->method = o->method;
     settings->tolerance = o->tolerance <= 0 ? DEFAULT_TOLERANCE : o->tolerance < 1 ? o->tolerance : 1;
     settings->max_sweeps = o->max_sweeps > 0 ? o->max_sweeps : DEFAULT_MAX_SWEEPS;
+    settings->cache = o->cache;
+    settings->cache_size = o->cache_size;
     settings->prefactor = o->model == NLC_MODEL_HALF_SPACE && o->prefactor > 0 ? o->prefactor : 1;
     return NLC_OK;
 }
@@ -113,4 +119,11 @@ nlc_status nlc_set_options(nlc_network *network, const nlc_options *options, nlc
     if ((status = check_stiffnesses(network, o.stiffness, &culprit)) != NLC_OK) return nlc_error(info, status, culprit);
     nlc_apply_settings(network, &settings, o.stiffness);
     return nlc_error(info, NLC_OK, -1);
+}
+
+size_t nlc_cache_size(const nlc_network *network)
+{
+    if (!network || !nlc_network_is_valid(network)) return 0;
+    const size_t pairs = (size_t)nlc_count_pairs(network), each = (size_t)network->settings.model->kept * sizeof(double);
+    return each > 0 && pairs > PTRDIFF_MAX / each ? PTRDIFF_MAX : pairs * each;
 }

@@ -231,6 +231,7 @@ nlc_status nlc_solve(nlc_network *network, double *NLC_RESTRICT force, double *N
     out.status = check(network, overlap, normal, nonlocal, &out.info.culprit);
     if (out.status != NLC_OK) return nlc_error(info, out.status, out.info.culprit);
 
+    network->cached = false;
     if (!network->settings.model->within)
         uncoupled(network, &out);
     else if (network->settings.method == NLC_METHOD_AUTOMATIC && nlc_is_loose(network, overlap, normal, &out))

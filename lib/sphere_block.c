@@ -96,7 +96,7 @@ bool nlc_sphere_within(nlc_block *a, const nlc_kernel *kernel)
 {
     const nlc_sphere_constants *constants = &kernel->sphere;
     const int n = a->count, end = n / 2 + 1;
-    double t[PAIRS], s[PAIRS], d[PAIRS];
+    double t[PAIRS], room[2][PAIRS], *s = room[0], *d = room[1], *kept = a->kept;
     sums mine, theirs;
     bool distinct = true;
     copy_ring(a->x, n);
@@ -108,10 +108,15 @@ bool nlc_sphere_within(nlc_block *a, const nlc_kernel *kernel)
     for (int shift = 1, first = 1, pairs; shift < end; first = shift) {
         pairs = 0;
         do {
-            ring_distances(t + pairs, a, shift, length(shift, n));
+            if (!a->known) ring_distances(t + pairs, a, shift, length(shift, n));
             pairs += length(shift++, n);
         } while (shift < end && pairs + n <= PAIRS);
-        distinct &= nlc_sphere_evaluate(s, d, t, pairs, constants);
+        if (kept) {
+            s = kept;
+            d = kept += pairs;
+            kept += pairs;
+        }
+        if (!a->known) distinct &= nlc_sphere_evaluate(s, d, t, pairs, constants);
         for (pairs = 0; first < shift; pairs += length(first++, n))
             ring_sums(&mine, &theirs, s + pairs, d + pairs, a, first, length(first, n));
     }

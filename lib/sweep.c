@@ -46,6 +46,8 @@ static bool displace_in_blocks(nlc_network *n, nlc_response response, const doub
     for (int64_t p = begin; p < end; p += NLC_BLOCK) {
         const double f = gather(&a, n, response, force, normal, particle, p, end - p > NLC_BLOCK ? p + NLC_BLOCK : end);
         *largest = f > *largest ? f : *largest;
+        a.kept = NULL;
+        a.known = false;
         distinct &= model->within(&a, kernel);
         for (int64_t q = begin; q < end; q += NLC_BLOCK) {
             if (q == p) continue;
@@ -68,7 +70,9 @@ static double largest_force(const nlc_network *n, const double *force, int64_t b
     return largest;
 }
 
-bool nlc_displace_particle(nlc_network *n, nlc_response response, const double *force, const double *normal, int64_t particle)
+/* kept: room for a block's coefficients, or NULL; known: they are there. */
+static bool displace_particle(nlc_network *n, nlc_response response, const double *force, const double *normal, int64_t particle,
+                              double *kept, bool known)
 {
     const nlc_model *model = n->settings.model;
     const int64_t begin = n->start[particle], end = n->start[particle + 1];
@@ -82,12 +86,19 @@ bool nlc_displace_particle(nlc_network *n, nlc_response response, const double *
     } else if (end > begin) {
         nlc_block a;
         largest = gather(&a, n, response, force, normal, particle, begin, end);
+        a.kept = kept;
+        a.known = known;
         distinct = model->within(&a, nlc_kernel_of(n, particle));
         store(&a, n, response, force, normal, particle, begin);
     }
     n->largest[particle] = largest;
     n->closest[particle] = 0;
     return distinct;
+}
+
+bool nlc_displace_particle(nlc_network *n, nlc_response response, const double *force, const double *normal, int64_t particle)
+{
+    return displace_particle(n, response, force, normal, particle, NULL, false);
 }
 
 static double squared_distance(const double *normal, int64_t e, int64_t f)
@@ -130,11 +141,34 @@ static bool in_range(const nlc_network *n, const double *force, const double *no
     return e + 512 <= 1020 || e + closeness(n, normal) <= 1020;
 }
 
-/* The first particle with two contacts in the same direction, or -1. */
+static int64_t pairs_of(const nlc_network *n, int64_t particle)
+{
+    const int64_t count = n->start[particle + 1] - n->start[particle];
+    return count > NLC_BLOCK ? 0 : count * (count - 1) / 2;
+}
+
+int64_t nlc_count_pairs(const nlc_network *n)
+{
+    int64_t sum = 0;
+    for (int64_t k = 0; k < n->particle_count; k++) sum += pairs_of(n, k);
+    return sum;
+}
+
+/* The first particle with two contacts in the same direction, or -1.  The cache is filled by the particles in turn, as far as it goes. */
 static int64_t displace_all(nlc_network *n, nlc_response response, const double *force, const double *normal)
 {
-    for (int64_t k = 0; k < n->particle_count; k++)
-        if (!nlc_displace_particle(n, response, force, normal, k)) return k;
+    const int per_pair = n->settings.model->kept;
+    int64_t room = n->settings.cache ? (int64_t)(n->settings.cache_size / sizeof(double)) : 0;
+    double *kept = n->settings.cache;
+    for (int64_t k = 0; k < n->particle_count; k++) {
+        const int64_t wanted = per_pair * pairs_of(n, k);
+        const bool fits = wanted > 0 && wanted <= room;
+        if (!displace_particle(n, response, force, normal, k, fits ? kept : NULL, fits && n->cached)) return k;
+        if (!fits) continue;
+        kept += wanted;
+        room -= wanted;
+    }
+    n->cached = true;
     return -1;
 }
 
@@ -187,6 +221,7 @@ nlc_status nlc_sweep(nlc_network *network, double *NLC_RESTRICT displacement, co
     if ((culprit = nlc_first_not_finite(force, count)) >= 0) return nlc_error(info, NLC_ERROR_FORCE, culprit);
 
     nlc_info record = nlc_new_info();
+    network->cached = false;
     nlc_set_units(network, 0, 0);
     if (places) nlc_set_places(network, displacement, overlap, 1);
     nlc_status status = nlc_displace(network, NLC_OF_FORCES, force, normal, &record.culprit);

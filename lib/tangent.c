@@ -24,6 +24,7 @@ static bool set_slopes(nlc_network *n, const double *force, units *result)
     u.slope = u.stiffness + (u.force - u.stiffness) / 3;
     *result = u;
     if (u.slope > 1000 || u.slope < -1000 || n->coupling_exponent + u.slope > 200) return false;
+    n->cached = false;
     nlc_set_units(n, -2 * ((u.force - u.stiffness) / 3), -u.stiffness);
     for (int64_t c = 0; c < n->contact_count; c++) {
         const double k = nlc_join(n->stiffness[c], -u.stiffness), p = nlc_join(force[c], -u.force);

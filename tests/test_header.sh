@@ -42,8 +42,8 @@ AT(nlc_particles, wall_material, 72);
 AT(nlc_particles, wall_count, 80);
 
 #define O(field) OF(nlc_options, field)
-SIZE(nlc_options, 56, O(struct_size) + O(model) + O(method) + O(tolerance) + O(max_sweeps) + O(prefactor) + O(simd) +
-     O(points) + O(stiffness));
+SIZE(nlc_options, 72, O(struct_size) + O(model) + O(method) + O(tolerance) + O(max_sweeps) + O(prefactor) + O(simd) +
+     O(points) + O(stiffness) + O(cache) + O(cache_size));
 AT(nlc_options, struct_size, 0);
 AT(nlc_options, model, 8);
 AT(nlc_options, method, 12);
@@ -53,6 +53,8 @@ AT(nlc_options, prefactor, 32);
 AT(nlc_options, simd, 40);
 AT(nlc_options, points, 44);
 AT(nlc_options, stiffness, 48);
+AT(nlc_options, cache, 56);
+AT(nlc_options, cache_size, 64);
 
 #define I(field) OF(nlc_info, field)
 SIZE(nlc_info, 128, I(struct_size) + I(culprit) + I(sweeps) + I(residual) + I(worst_contact) + I(active) +
