@@ -615,7 +615,7 @@ NLC_API nlc_status nlc_network_init(nlc_network **network, void *memory, size_t 
  * network    from nlc_network_init
  * options    or NULL for the defaults; options->stiffness is [contacts]
  * info       or NULL
- * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _RESERVED, _NETWORK, _MODEL, _METHOD, _OPTION, _STIFFNESS, _RANGE.
+ * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _RESERVED, _NETWORK, _MODEL, _METHOD, _OPTION, _ALIGNMENT, _STIFFNESS, _RANGE.
  */
 NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *options, nlc_info *info);
 
