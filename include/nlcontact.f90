@@ -4,7 +4,7 @@
 !
 ! The header and the man pages say what everything means; names and the order of arguments are theirs, but for F, which is
 ! total_force here.  Particles, walls, contacts and materials are numbered from 0.  Arrays [contacts][3] are (3, contacts).
-! Optional arguments may be left out where C takes NULL.  Pointers in types are set with c_loc, to arrays that are targets.
+! Optional arguments may be left out where C takes NULL.  Pointers in types are set with c_loc, to arrays that are targets, or c_funloc.
 ! Types hold their size (where pointers have 64 bits) and zeros from the start.
 !
 module nlcontact
@@ -87,7 +87,7 @@ module nlcontact
     end type
 
     type, bind(c) :: nlc_options
-        integer(c_size_t) :: struct_size = 72
+        integer(c_size_t) :: struct_size = 88
         integer(c_int32_t) :: model = 0
         integer(c_int32_t) :: method = 0
         real(c_double) :: tolerance = 0
@@ -98,6 +98,8 @@ module nlcontact
         type(c_ptr) :: stiffness = c_null_ptr
         type(c_ptr) :: cache = c_null_ptr
         integer(c_size_t) :: cache_size = 0
+        type(c_funptr) :: parallel_for = c_null_funptr
+        type(c_ptr) :: parallel_context = c_null_ptr
     end type
 
     type, bind(c) :: nlc_info

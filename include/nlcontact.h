@@ -492,6 +492,13 @@ enum {
     NLC_SIMD_NEON = 4     /* AArch64 */
 };
 
+/*
+ * The host's threads: calls task(work, k) once for each k = 0 ... count-1, in any order and by any of its threads, and returns when
+ * all have returned.  What a task writes before has to be seen after, as it is by any pool's join or barrier.  Threads with
+ * floating-point traps or another rounding than the caller's give what those give.
+ */
+typedef void (*nlc_parallel_callback)(void *context, void (*task)(void *work, int64_t k), void *work, int64_t count);
+
 /* Options of a network.  0 is the default of every field; a NULL pointer to options means all defaults. */
 typedef struct nlc_options {
     size_t struct_size;      /* sizeof(nlc_options) */
@@ -505,6 +512,8 @@ typedef struct nlc_options {
     const double *stiffness; /* [contacts] k of P = k x^(3/2) for hosts with a law of their own; NULL: n_H.  Copied. */
     void *cache;             /* [cache_size] bytes for coefficients, aligned to 8; NULL: they are computed in each sweep.  Kept */
     size_t cache_size;       /*     as long as the network, its contents from call to call are not.  See nlc_cache_size */
+    nlc_parallel_callback parallel_for; /* for sweeps and solves; NULL: the calling thread does everything.  The results are the same */
+    void *parallel_context;  /*     bits whatever it does; below some 10,000 contacts threads have nothing to share */
 } nlc_options;
 
 /*

@@ -3,6 +3,7 @@
 #include "bound.h"
 
 #include "block.h"
+#include "parallel.h"
 
 /* No side gets less: a share near zero would make its particle's block huge. */
 #define SHARE_MIN 0.05
@@ -63,14 +64,27 @@ static void set_roots(nlc_network *n)
         }
 }
 
+typedef struct job {
+    nlc_network *n;
+    const double *normal;
+    double beta;
+} job;
+
+static void mark_task(void *work, int64_t w)
+{
+    const job *m = work;
+    mark_above(m->n, m->normal, m->beta, w * NLC_WINDOW, nlc_end_of(w, NLC_WINDOW, m->n->particle_count));
+}
+
 bool nlc_bound_below(nlc_network *n, const double *normal, double beta, nlc_bound *result)
 {
+    job all = {n, normal, beta};
     first_shares(n);
     set_roots(n);
-    for (int64_t first = 0; first < n->particle_count; first += NLC_WINDOW) {
-        const int64_t end = n->particle_count - first > NLC_WINDOW ? first + NLC_WINDOW : n->particle_count;
-        mark_above(n, normal, beta, first, end);
-        for (int64_t k = first; k < end; k++) {
+    if (n->settings.parallel_for) nlc_for(n, mark_task, &all, nlc_windows(n));
+    for (int64_t w = 0; w < nlc_windows(n); w++) {
+        if (!n->settings.parallel_for) mark_task(&all, w); /* the first one above ends it */
+        for (int64_t k = w * NLC_WINDOW; k < nlc_end_of(w, NLC_WINDOW, n->particle_count); k++) {
             if (is_below(n, normal, k, beta, result)) continue;
             result->where = k;
             return false;

@@ -2,10 +2,11 @@
 /*
  * directions.c - the vectors of the solver.
  *
- * All passes go over chunks that stay in the cache, and sums are taken in four lanes and chunk by chunk: always in the same
- * order, and in one that compilers make vectors of.
+ * All passes go over chunks that stay in the cache, and sums are taken in four lanes, chunk by chunk and slab by slab: always in the
+ * same order, in one that compilers make vectors of and that threads may share.
  */
 #include "iteration.h"
+#include "parallel.h"
 
 #define CHUNK 256
 #define CLAMP 0.005 /* 1 - theta is taken for no less: a step along a nearly critical direction stays finite */
@@ -49,68 +50,93 @@ static double far_inverse(const nlc_iteration *q, int64_t c)
     return 1 / (slope > floor ? slope : floor);
 }
 
-static void residuals(nlc_iteration *q, int64_t from, int count, double *inverse)
+static void residuals(const nlc_iteration *q, int64_t from, int count, double *inverse, nlc_piece *piece)
 {
     const nlc_variant *variant = q->n->settings.variant;
     double force[CHUNK], *z = q->n->direction[0] + from;
-    nlc_extremes e = {q->largest_residual, q->largest_force, false};
+    nlc_extremes e = {piece->residual, piece->force, false};
     for (int c = variant ? variant->residuals(q, from, count, z, inverse, force, &e) : 0; c < count; c++)
         residual(q, from + c, z + c, inverse + c, force + c, &e);
     for (int c = 0; c < count && e.far; c++) {
         const double iterate = q->n->force[from + c];
         if (iterate < 0 || iterate > NLC_FAR * force[c]) inverse[c] = far_inverse(q, from + c);
     }
-    q->largest_residual = e.residual;
-    q->largest_force = e.force;
+    piece->residual = e.residual;
+    piece->force = e.force;
 }
 
-static void evaluate_chunk(nlc_iteration *q, int64_t from, int count)
+static void evaluate_chunk(const nlc_iteration *q, int64_t from, int count, nlc_piece *piece)
 {
-    nlc_network *n = q->n;
+    const nlc_network *n = q->n;
     double inverse[CHUNK], scaled[CHUNK];
-    residuals(q, from, count, inverse);
+    residuals(q, from, count, inverse, piece);
     for (int a = 0; a < q->directions; a++) {
         for (int c = 0; c < count; c++) scaled[c] = n->direction[a][from + c] * inverse[c];
-        for (int b = 0; b <= a; b++) q->M[a][b] += dot(scaled, n->direction[b] + from, count);
+        for (int b = 0; b <= a; b++) piece->sum[a][b] += dot(scaled, n->direction[b] + from, count);
     }
 }
 
-static int chunk_at(const nlc_iteration *q, int64_t from)
+#define EACH_CHUNK(q, slab, from, count) \
+    for (int64_t from = (slab)*NLC_SLAB, end = nlc_end_of(slab, NLC_SLAB, (q)->n->contact_count), count = chunk(from, end); from < end; \
+         from += CHUNK, count = chunk(from, end))
+
+static int64_t chunk(int64_t from, int64_t end)
 {
-    return q->n->contact_count - from < CHUNK ? (int)(q->n->contact_count - from) : CHUNK;
+    return end - from < CHUNK ? end - from : CHUNK;
 }
 
-#define EACH_CHUNK(from) for (int64_t from = 0; from < q->n->contact_count; from += CHUNK)
-
-static void clear(nlc_small A)
+/* A symmetric matrix from the slabs' sums, which are below its diagonal. */
+static void add_up(const nlc_iteration *q, nlc_small A)
 {
     for (int a = 0; a < NLC_DIRECTIONS; a++)
-        for (int b = 0; b < NLC_DIRECTIONS; b++) A[a][b] = 0;
+        for (int b = 0; b <= a; b++) {
+            double sum = 0;
+            for (int64_t s = 0; s < nlc_slabs(q->n) && a < q->directions; s++) sum += q->n->piece[s].sum[a][b];
+            A[a][b] = A[b][a] = sum;
+        }
 }
 
-static void mirror(nlc_small A)
+static nlc_piece *new_piece(const nlc_iteration *q, int64_t slab)
 {
-    for (int a = 0; a < NLC_DIRECTIONS; a++)
-        for (int b = 0; b < a; b++) A[b][a] = A[a][b];
+    nlc_piece *piece = &q->n->piece[slab];
+    *piece = (nlc_piece){.bad = -1};
+    return piece;
+}
+
+static void evaluate_task(void *work, int64_t slab)
+{
+    const nlc_iteration *q = work;
+    nlc_piece *piece = new_piece(q, slab);
+    EACH_CHUNK(q, slab, from, count) evaluate_chunk(q, from, (int)count, piece);
 }
 
 void nlc_evaluate(nlc_iteration *q)
 {
     q->largest_residual = q->largest_force = 0;
-    clear(q->M);
-    EACH_CHUNK(from) evaluate_chunk(q, from, chunk_at(q, from));
-    mirror(q->M);
+    nlc_for(q->n, evaluate_task, q, nlc_slabs(q->n));
+    for (int64_t s = 0; s < nlc_slabs(q->n); s++) {
+        const nlc_piece *piece = &q->n->piece[s];
+        q->largest_residual = piece->residual > q->largest_residual ? piece->residual : q->largest_residual;
+        q->largest_force = piece->force > q->largest_force ? piece->force : q->largest_force;
+    }
+    add_up(q, q->M);
+}
+
+static void products_task(void *work, int64_t slab)
+{
+    const nlc_iteration *q = work;
+    nlc_piece *piece = new_piece(q, slab);
+    double **w = q->n->direction, **cw = q->n->image;
+    EACH_CHUNK(q, slab, from, count)
+    for (int a = 0; a < q->directions; a++)
+        for (int b = 0; b <= a; b++) /* the image of the residual is fresh: it serves its whole row */
+            piece->sum[a][b] += dot(cw[b > 0 ? a : 0] + from, w[b > 0 ? b : a] + from, (int)count);
 }
 
 void nlc_stiffness_products(nlc_iteration *q)
 {
-    double **w = q->n->direction, **cw = q->n->image;
-    clear(q->K);
-    EACH_CHUNK(from)
-    for (int a = 0; a < q->directions; a++)
-        for (int b = 0; b <= a; b++) /* the image of the residual is fresh: it serves its whole row */
-            q->K[a][b] += dot(cw[b > 0 ? a : 0] + from, w[b > 0 ? b : a] + from, chunk_at(q, from));
-    mirror(q->K);
+    nlc_for(q->n, products_task, q, nlc_slabs(q->n));
+    add_up(q, q->K);
 }
 
 void nlc_choose_step(nlc_iteration *q)
@@ -164,12 +190,25 @@ static void step_chunk(const nlc_iteration *q, double *const *w, double *total, 
     }
 }
 
+typedef struct job {
+    const nlc_iteration *q;
+    bool all;
+} job;
+
+static void step_task(void *work, int64_t slab)
+{
+    const job *s = work;
+    const nlc_network *n = s->q->n;
+    EACH_CHUNK(s->q, slab, from, count)
+    {
+        step_chunk(s->q, n->direction, n->force, s->all, from, (int)count);
+        step_chunk(s->q, n->image, n->current, s->all, from, (int)count);
+    }
+}
+
 void nlc_take_step(nlc_iteration *q, bool all)
 {
-    EACH_CHUNK(from)
-    {
-        step_chunk(q, q->n->direction, q->n->force, all, from, chunk_at(q, from));
-        step_chunk(q, q->n->image, q->n->current, all, from, chunk_at(q, from));
-    }
+    job step = {q, all};
+    nlc_for(q->n, step_task, &step, nlc_slabs(q->n));
     q->directions = all ? NLC_DIRECTIONS : 2;
 }

@@ -244,15 +244,7 @@ static int64_t displace_window(nlc_network *n, const double *force, const double
     return bad;
 }
 
-static int64_t displace(nlc_network *n, const double *force, const double *weighed, const double *normal)
-{
-    int64_t bad = -1;
-    for (int64_t w = 0; w < n->particle_count && bad < 0; w += NLC_WINDOW)
-        bad = displace_window(n, force, weighed, normal, w, n->particle_count - w > NLC_WINDOW ? w + NLC_WINDOW : n->particle_count);
-    return bad;
-}
-
 #include "lanes_bound.h"
 #include "lanes_residuals.h"
 
-const nlc_variant VARIANT = {displace, mark_above, residuals};
+const nlc_variant VARIANT = {displace_window, mark_above, residuals};

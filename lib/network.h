@@ -27,7 +27,16 @@ typedef struct nlc_settings {
     int64_t max_sweeps;
     double *cache; /* the caller's, for coefficients; NULL: none */
     size_t cache_size;
+    nlc_parallel_callback parallel_for; /* NULL: none */
+    void *parallel_context;
 } nlc_settings;
+
+/* What is found of one slab or window of a loop, see parallel.h. */
+typedef struct nlc_piece {
+    nlc_small sum;
+    double residual, force;
+    int64_t bad; /* particle */
+} nlc_piece;
 
 struct nlc_network {
     uint64_t magic;
@@ -58,6 +67,8 @@ struct nlc_network {
     double *side;     /* [2 contacts] displacement of each side */
     double *force;    /* [contacts] */
     double *current;  /* [contacts] nonlocal displacement */
+    nlc_piece *piece; /* [slabs or windows] */
+    int64_t *pairs;   /* [windows] of contacts on the particles before; not those of particles with more than NLC_BLOCK */
     double *largest;  /* [bodies] */
     double *spare[5]; /* [contacts] */
     double *lanczos[4]; /* [contacts] for blocks that do not fit on the stack */
@@ -152,8 +163,13 @@ nlc_status nlc_displace_weighed(nlc_network *network, const double *normal, int6
 /* The variant of the sweep's inner loop; NULL: the portable code. */
 const nlc_variant *nlc_variant_of(const nlc_network *network);
 
-/* Pairs of contacts on the same particle, but for particles with more than NLC_BLOCK. */
-int64_t nlc_count_pairs(const nlc_network *network);
+/* Pairs of contacts on a particle, 0 if there are more than NLC_BLOCK contacts; and on those from first to end. */
+static inline int64_t nlc_pairs_on(const nlc_network *n, int64_t particle)
+{
+    const int64_t count = n->start[particle + 1] - n->start[particle];
+    return count > NLC_BLOCK ? 0 : count * (count - 1) / 2;
+}
+int64_t nlc_count_pairs(const nlc_network *network, int64_t first, int64_t end);
 
 /* nlc_displace for the sides of one particle.  False: two directions are the same. */
 bool nlc_displace_particle(nlc_network *network, nlc_response response, const double *force, const double *normal,

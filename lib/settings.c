@@ -41,6 +41,8 @@ nlc_status nlc_read_settings(nlc_settings *settings, const nlc_options *o, int64
     settings->method = o->method;
     settings->tolerance = o->tolerance <= 0 ? DEFAULT_TOLERANCE : o->tolerance < 1 ? o->tolerance : 1;
     settings->max_sweeps = o->max_sweeps > 0 ? o->max_sweeps : DEFAULT_MAX_SWEEPS;
+    settings->parallel_for = o->parallel_for;
+    settings->parallel_context = o->parallel_context;
     settings->cache = o->cache;
     settings->cache_size = o->cache_size;
     settings->prefactor = o->model == NLC_MODEL_HALF_SPACE && o->prefactor > 0 ? o->prefactor : 1;
@@ -124,6 +126,6 @@ nlc_status nlc_set_options(nlc_network *network, const nlc_options *options, nlc
 size_t nlc_cache_size(const nlc_network *network)
 {
     if (!network || !nlc_network_is_valid(network)) return 0;
-    const size_t pairs = (size_t)nlc_count_pairs(network), each = (size_t)network->settings.model->kept * sizeof(double);
+    const size_t pairs = (size_t)nlc_count_pairs(network, 0, network->particle_count), each = (size_t)network->settings.model->kept * sizeof(double);
     return each > 0 && pairs > PTRDIFF_MAX / each ? PTRDIFF_MAX : pairs * each;
 }

@@ -19,6 +19,7 @@ static const size_t options_ends[] = {
     END(nlc_options, tolerance),   END(nlc_options, max_sweeps), END(nlc_options, prefactor),
     END(nlc_options, simd),        END(nlc_options, points),   END(nlc_options, stiffness),
     END(nlc_options, cache),       END(nlc_options, cache_size),
+    END(nlc_options, parallel_for), END(nlc_options, parallel_context),
 };
 static const size_t positions_ends[] = {
     END(nlc_positions, struct_size), END(nlc_positions, x),          END(nlc_positions, y),

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "parallel.h"
 #include "structs.h"
 #include "vector.h"
 
@@ -141,34 +142,33 @@ static bool in_range(const nlc_network *n, const double *force, const double *no
     return e + 512 <= 1020 || e + closeness(n, normal) <= 1020;
 }
 
-static int64_t pairs_of(const nlc_network *n, int64_t particle)
-{
-    const int64_t count = n->start[particle + 1] - n->start[particle];
-    return count > NLC_BLOCK ? 0 : count * (count - 1) / 2;
-}
-
-int64_t nlc_count_pairs(const nlc_network *n)
+int64_t nlc_count_pairs(const nlc_network *n, int64_t first, int64_t end)
 {
     int64_t sum = 0;
-    for (int64_t k = 0; k < n->particle_count; k++) sum += pairs_of(n, k);
+    for (int64_t k = first; k < end; k++) sum += nlc_pairs_on(n, k);
     return sum;
 }
 
+/* What the windows of a sweep have in common. */
+typedef struct job {
+    nlc_network *n;
+    nlc_response response;
+    const double *force, *weighed, *normal;
+} job;
+
 /* The first particle with two contacts in the same direction, or -1.  The cache is filled by the particles in turn, as far as it goes. */
-static int64_t displace_all(nlc_network *n, nlc_response response, const double *force, const double *normal)
+static int64_t displace_window(const job *s, int64_t first, int64_t end)
 {
+    nlc_network *n = s->n;
     const int per_pair = n->settings.model->kept;
-    int64_t room = n->settings.cache ? (int64_t)(n->settings.cache_size / sizeof(double)) : 0;
-    double *kept = n->settings.cache;
-    for (int64_t k = 0; k < n->particle_count; k++) {
-        const int64_t wanted = per_pair * pairs_of(n, k);
-        const bool fits = wanted > 0 && wanted <= room;
-        if (!displace_particle(n, response, force, normal, k, fits ? kept : NULL, fits && n->cached)) return k;
-        if (!fits) continue;
-        kept += wanted;
-        room -= wanted;
+    const int64_t room = n->settings.cache ? (int64_t)(n->settings.cache_size / sizeof(double)) : 0;
+    int64_t at = per_pair * n->pairs[first / NLC_WINDOW];
+    for (int64_t k = first; k < end; k++) {
+        const int64_t wanted = per_pair * nlc_pairs_on(n, k);
+        const bool fits = wanted > 0 && at + wanted <= room;
+        if (!displace_particle(n, s->response, s->force, s->normal, k, fits ? n->settings.cache + at : NULL, fits && n->cached)) return k;
+        at += wanted;
     }
-    n->cached = true;
     return -1;
 }
 
@@ -177,13 +177,24 @@ const nlc_variant *nlc_variant_of(const nlc_network *n)
     return n->settings.model->within == nlc_case_one_within ? n->settings.variant : NULL;
 }
 
+static void displace_task(void *work, int64_t w)
+{
+    const job *s = work;
+    const nlc_variant *variant = nlc_variant_of(s->n);
+    const int64_t first = w * NLC_WINDOW, end = nlc_end_of(w, NLC_WINDOW, s->n->particle_count);
+    s->n->piece[w].bad = variant ? variant->displace(s->n, s->force, s->weighed, s->normal, first, end) : displace_window(s, first, end);
+}
+
 static nlc_status displace(nlc_network *n, nlc_response response, const double *force, const double *weighed, const double *normal,
                            int64_t *culprit)
 {
-    const nlc_variant *variant = nlc_variant_of(n);
+    job all = {n, response, force, weighed, normal};
+    int64_t bad = -1;
     *culprit = -1;
     if (n->settings.model->within && !in_range(n, force, normal)) return NLC_ERROR_RANGE;
-    const int64_t bad = variant ? variant->displace(n, force, weighed, normal) : displace_all(n, response, force, normal);
+    nlc_for(n, displace_task, &all, nlc_windows(n));
+    for (int64_t w = 0; w < nlc_windows(n) && bad < 0; w++) bad = n->piece[w].bad;
+    n->cached = bad < 0;
     if (bad >= 0) *culprit = nlc_find_coincident(n, normal, bad);
     return bad >= 0 ? NLC_ERROR_COINCIDENT : NLC_OK;
 }

@@ -26,11 +26,13 @@ typedef struct nlc_extremes nlc_extremes;
 
 typedef struct nlc_variant {
     /*
-     * nlc_displace of Case I, from the range check on.  Returns the first particle with two contacts in the same direction, or -1.
+     * nlc_displace of Case I for the particles from first to end, a window at most, from the range check on.  Returns the first one
+     * with two contacts in the same direction, or -1.
      * Sets network->closest; and, from weighed [contacts][2], the forces again with a weight w beside each, or NULL, network->norm:
      * the sum of k^2 w w over the pairs of a particle, k their coefficient without U; INFINITY where it is not known.
      */
-    int64_t (*displace)(nlc_network *network, const double *force, const double *weighed, const double *normal);
+    int64_t (*displace)(nlc_network *network, const double *force, const double *weighed, const double *normal, int64_t first,
+                        int64_t end);
     /*
      * Whether the blocks (bound.h) of the particles from first to end, a window at most, have eigenvalues below a limit only: network->changed is 0
      * where that is so, 1 where it is not or is left open.  root [contacts][2]: (U D / share)^1/2 of each side.

@@ -42,8 +42,9 @@ AT(nlc_particles, wall_material, 72);
 AT(nlc_particles, wall_count, 80);
 
 #define O(field) OF(nlc_options, field)
-SIZE(nlc_options, 72, O(struct_size) + O(model) + O(method) + O(tolerance) + O(max_sweeps) + O(prefactor) + O(simd) +
-     O(points) + O(stiffness) + O(cache) + O(cache_size));
+SIZE(nlc_options, 88, O(struct_size) + O(model) + O(method) + O(tolerance) + O(max_sweeps) + O(prefactor) + O(simd) +
+     O(points) + O(stiffness) + O(cache) + O(cache_size) + O(parallel_for) +
+     O(parallel_context));
 AT(nlc_options, struct_size, 0);
 AT(nlc_options, model, 8);
 AT(nlc_options, method, 12);
@@ -55,6 +56,8 @@ AT(nlc_options, points, 44);
 AT(nlc_options, stiffness, 48);
 AT(nlc_options, cache, 56);
 AT(nlc_options, cache_size, 64);
+AT(nlc_options, parallel_for, 72);
+AT(nlc_options, parallel_context, 80);
 
 #define I(field) OF(nlc_info, field)
 SIZE(nlc_info, 128, I(struct_size) + I(culprit) + I(sweeps) + I(residual) + I(worst_contact) + I(active) +

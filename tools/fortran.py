@@ -11,7 +11,7 @@ import sys
 
 KINDS = {'double': 'real(c_double)', 'int32_t': 'integer(c_int32_t)', 'nlc_status': 'integer(c_int32_t)',
          'int64_t': 'integer(c_int64_t)', 'uint64_t': 'integer(c_int64_t)', 'size_t': 'integer(c_size_t)',
-         'ptrdiff_t': 'integer(c_intptr_t)'}
+         'ptrdiff_t': 'integer(c_intptr_t)', 'nlc_exchange_callback': 'type(c_funptr)', 'nlc_reduce_callback': 'type(c_funptr)', 'nlc_parallel_callback': 'type(c_funptr)'}
 BYTES = {'int32_t': 4}                                        # others: 8
 SCALARS = {'energy', 'reach', 'count'}                        # outputs that are one number
 OPTIONAL = {'info', 'options', 'F_wall', 'stiffness'}         # may be left out, beside what is said here:
@@ -25,7 +25,7 @@ HEAD = '''! SPDX-License-Identifier: BSD-2-Clause
 !
 ! The header and the man pages say what everything means; names and the order of arguments are theirs, but for F, which is
 ! total_force here.  Particles, walls, contacts and materials are numbered from 0.  Arrays [contacts][3] are (3, contacts).
-! Optional arguments may be left out where C takes NULL.  Pointers in types are set with c_loc, to arrays that are targets.
+! Optional arguments may be left out where C takes NULL.  Pointers in types are set with c_loc, to arrays that are targets, or c_funloc.
 ! Types hold their size (where pointers have 64 bits) and zeros from the start.
 !
 module nlcontact
@@ -69,7 +69,8 @@ def structs(header):
             for field in names.split(','):
                 size += BYTES.get(kind, 8) if '*' not in field else 8
                 pointer, field = '*' in field, re.sub(r'\*|const|\s', '', field)
-                default = ' = c_null_ptr' if pointer else ' = 16' if field == 'material_size' else ' = 0'
+                default = ' = c_null_ptr' if pointer else ' = c_null_funptr' if 'callback' in kind else ' = 0'
+                default = ' = 16' if field == 'material_size' else default
                 lines.append([('type(c_ptr)' if pointer else KINDS[kind]), field, default])
         for line in lines:
             if line[1] == 'struct_size':
