@@ -84,7 +84,18 @@ static void fill_up(group *g, int l)
     }
 }
 
-static void fill_lane(group *g, int l, const nlc_network *n, const double *force, const double *weighed, const double *normal)
+/* What a group does about its coefficients. */
+typedef struct keeping {
+    double *at; /* [pairs of places][LANES], or NULL: they are computed and forgotten */
+    bool known; /* they are there */
+} keeping;
+
+static int64_t room_for(int64_t places)
+{
+    return LANES * places * (places - 1) / 2;
+}
+
+static void fill_lane(group *g, int l, const nlc_network *n, const double *force, const double *weighed, const double *normal, bool known)
 {
     const double scale = g->scale[l];
     double largest = 0;
@@ -92,7 +103,7 @@ static void fill_lane(group *g, int l, const nlc_network *n, const double *force
         place *at = &g->at[d];
         const int64_t e = nlc_side_at(n, normal, g->begin[l] + d), c = e >> 1;
         const double f = weighed ? weighed[2 * c] : force[c], p = fabs(f);
-        set_direction(at, l, normal, e);
+        if (!known) set_direction(at, l, normal, e);
         at->force[l] = scale * f;
         at->weight[l] = weighed ? weighed[2 * c + 1] : 0;
         largest = p > largest ? p : largest;
@@ -141,7 +152,7 @@ TARGET static inline vec squared_distance(vec x, vec y, vec z, const place *b)
 
 /* All pairs.  next: the particles of the next group, or NULL. */
 __attribute__((always_inline)) TARGET static inline void couple(group *g, const nlc_network *n, const double *from, int64_t stride,
-                                                                const double *normal, const int32_t *next)
+                                                                const double *normal, const int32_t *next, double *kept, bool known)
 {
     const vec c0 = load(g->c0), c1 = load(g->c1), c2 = load(g->c2);
     vec closest = set(4), squares = set(0);
@@ -151,8 +162,16 @@ __attribute__((always_inline)) TARGET static inline void couple(group *g, const 
         vec sum = set(0), weight = set(0);
         if (next) fetch(n, from, stride, normal, next, c);
         for (place *b = g->at; b < a; b++) {
-            const vec t = squared_distance(x, y, z, b), k = coefficient(t, c0, c1, c2);
-            closest = min(closest, t);
+            vec k;
+            if (known) {
+                k = loadu(kept);
+            } else {
+                const vec t = squared_distance(x, y, z, b);
+                k = coefficient(t, c0, c1, c2);
+                closest = min(closest, t);
+                if (kept) storeu(kept, k);
+            }
+            if (kept) kept += LANES;
             sum = muladd(k, load(b->force), sum);
             store(b->displacement, muladd(k, force, load(b->displacement)));
             if (stride == 2) weight = muladd(mul(k, k), load(b->weight), weight);
@@ -160,7 +179,7 @@ __attribute__((always_inline)) TARGET static inline void couple(group *g, const 
         store(a->displacement, sum);
         if (stride == 2) squares = muladd(weight, load(a->weight), squares);
     }
-    store(g->closest, closest);
+    if (!known) store(g->closest, closest);
     store(g->squares, squares);
 }
 
@@ -171,27 +190,34 @@ static bool leave(nlc_network *n, const double *force, const double *normal, int
     return nlc_displace_particle(n, NLC_OF_FORCES, force, normal, k);
 }
 
-TARGET static void couple_forces(group *g, const nlc_network *n, const double *force, const double *normal, const int32_t *next)
+/* Forces alone or with weights; known coefficients, and others. */
+TARGET static void couple_forces(group *g, const nlc_network *n, const double *force, const double *normal, const int32_t *next, double *kept)
 {
-    couple(g, n, force, 1, normal, next);
+    couple(g, n, force, 1, normal, next, kept, false);
 }
 
-TARGET static void couple_weighed(group *g, const nlc_network *n, const double *weighed, const double *normal, const int32_t *next)
+TARGET static void couple_weighed(group *g, const nlc_network *n, const double *weighed, const double *normal, const int32_t *next,
+                                  double *kept)
 {
-    couple(g, n, weighed, 2, normal, next);
+    couple(g, n, weighed, 2, normal, next, kept, false);
+}
+
+TARGET static void couple_known(group *g, const nlc_network *n, const double *force, const double *normal, const int32_t *next, double *kept)
+{
+    couple(g, n, force, 1, normal, next, kept, true);
 }
 
 /* Hands the results out; returns the first particle with two contacts in the same direction, or -1. */
-static int64_t empty(const group *g, nlc_network *n, const double *force, const double *normal)
+static int64_t empty(const group *g, nlc_network *n, const double *force, const double *normal, bool known)
 {
     int64_t bad = -1;
     for (int l = 0; l < LANES; l++) {
         const int64_t k = g->particle[l];
         for (int64_t d = 0; d < g->count[l]; d++) n->side[nlc_side_at(n, normal, g->begin[l] + d)] = g->at[d].displacement[l];
         n->largest[k] = g->largest[l];
-        n->closest[k] = g->closest[l];
+        if (!known) n->closest[k] = g->closest[l];
         n->norm[k] = g->squares[l];
-        if (g->closest[l] < NEAR && !leave(n, force, normal, k) && (bad < 0 || k < bad)) bad = k;
+        if (n->closest[k] < NEAR && !leave(n, force, normal, k) && (bad < 0 || k < bad)) bad = k;
     }
     return bad;
 }
@@ -219,22 +245,34 @@ static int sort(int32_t *sorted, const nlc_network *n, int64_t first, int64_t en
     return done_here;
 }
 
+/* The cache's next room for a group, or none. */
+static keeping keep(const nlc_network *n, int64_t *at, int64_t places, bool weighed)
+{
+    const int64_t room = n->settings.cache ? (int64_t)(n->settings.cache_size / sizeof(double)) : 0, begin = *at;
+    *at += room_for(places);
+    if (*at > room) return (keeping){NULL, false};
+    return (keeping){n->settings.cache + begin, n->cached && !weighed};
+}
+
 static int64_t displace_window(nlc_network *n, const double *force, const double *weighed, const double *normal, int64_t first,
                                int64_t end)
 {
     group g;
     int32_t sorted[NLC_WINDOW];
     const int count = sort(sorted, n, first, end), all = (int)(end - first);
-    int64_t bad = -1;
+    int64_t bad = -1, at = n->kept_at[first / NLC_WINDOW];
     for (int q = 0; q < count; q += LANES) {
         const int32_t *next = n->contact_count > FAR && q + 2 * LANES <= all ? sorted + q + LANES : NULL;
         choose(&g, n, sorted + q, count - q);
-        for (int l = 0; l < LANES; l++) fill_lane(&g, l, n, force, weighed, normal);
+        const keeping kept = keep(n, &at, g.places, weighed);
+        for (int l = 0; l < LANES; l++) fill_lane(&g, l, n, force, weighed, normal, kept.known);
         if (weighed)
-            couple_weighed(&g, n, weighed, normal, next);
+            couple_weighed(&g, n, weighed, normal, next, kept.at);
+        else if (kept.known)
+            couple_known(&g, n, force, normal, next, kept.at);
         else
-            couple_forces(&g, n, force, normal, next);
-        const int64_t k = empty(&g, n, force, normal);
+            couple_forces(&g, n, force, normal, next, kept.at);
+        const int64_t k = empty(&g, n, force, normal, kept.known);
         if (k >= 0 && (bad < 0 || k < bad)) bad = k;
     }
     for (int q = count; q < all; q++) {
@@ -244,7 +282,17 @@ static int64_t displace_window(nlc_network *n, const double *force, const double
     return bad;
 }
 
+/* Room in the cache, in doubles, for the particles from first to end. */
+static int64_t kept_in(const nlc_network *n, int64_t first, int64_t end)
+{
+    int32_t sorted[NLC_WINDOW];
+    const int count = sort(sorted, n, first, end);
+    int64_t sum = 0;
+    for (int q = 0; q < count; q += LANES) sum += room_for(n->start[sorted[q] + 1] - n->start[sorted[q]]);
+    return sum;
+}
+
 #include "lanes_bound.h"
 #include "lanes_residuals.h"
 
-const nlc_variant VARIANT = {displace_window, mark_above, residuals};
+const nlc_variant VARIANT = {displace_window, kept_in, mark_above, residuals};

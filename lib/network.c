@@ -33,7 +33,7 @@ static void lay_out_part(nlc_network *n, char *memory, size_t *used)
     n->origin = take(memory, used, n->contact_count, sizeof *n->origin);
     n->part_overlap = take(memory, used, n->contact_count, sizeof *n->part_overlap);
     n->part_normal = take(memory, used, n->contact_count, 3 * sizeof *n->part_normal);
-    p.pairs = take(memory, used, nlc_windows(n), sizeof *p.pairs);
+    p.kept_at = take(memory, used, nlc_windows(n), sizeof *p.kept_at);
     p.start = take(memory, used, n->particle_count + 1, sizeof *p.start);
     p.radius = take(memory, used, n->particle_count, sizeof *p.radius);
     p.scale = take(memory, used, n->particle_count, sizeof *p.scale);
@@ -60,7 +60,7 @@ static size_t lay_out(nlc_network *n, char *memory)
     n->radius = take(memory, &used, n->particle_count, sizeof *n->radius);
     n->scale = take(memory, &used, n->particle_count, sizeof *n->scale);
     n->largest = take(memory, &used, n->body_count, sizeof *n->largest);
-    n->pairs = take(memory, &used, nlc_windows(n), sizeof *n->pairs);
+    n->kept_at = take(memory, &used, nlc_windows(n), sizeof *n->kept_at);
     n->piece = take(memory, &used, nlc_windows(n) > nlc_slabs(n) ? nlc_windows(n) : nlc_slabs(n), sizeof *n->piece);
     n->material = take(memory, &used, n->body_count, sizeof *n->material);
     n->materials = take(memory, &used, n->material_count, sizeof *n->materials);
@@ -128,11 +128,6 @@ void nlc_build_adjacency(nlc_network *n)
     for (int64_t c = n->contact_count - 1; c >= 0; c--) {
         if (n->j[c] < n->particle_count) n->entry[--n->start[n->j[c]]] = 2 * c + 1;
         if (n->i[c] < n->particle_count) n->entry[--n->start[n->i[c]]] = 2 * c;
-    }
-    sum = 0;
-    for (int64_t w = 0; w < nlc_windows(n); w++) {
-        n->pairs[w] = sum;
-        sum += nlc_count_pairs(n, w * NLC_WINDOW, nlc_end_of(w, NLC_WINDOW, n->particle_count));
     }
 }
 

@@ -68,7 +68,7 @@ struct nlc_network {
     double *force;    /* [contacts] */
     double *current;  /* [contacts] nonlocal displacement */
     nlc_piece *piece; /* [slabs or windows] */
-    int64_t *pairs;   /* [windows] of contacts on the particles before; not those of particles with more than NLC_BLOCK */
+    int64_t *kept_at; /* [windows] where their coefficients begin in the cache */
     double *largest;  /* [bodies] */
     double *spare[5]; /* [contacts] */
     double *lanczos[4]; /* [contacts] for blocks that do not fit on the stack */
@@ -163,13 +163,8 @@ nlc_status nlc_displace_weighed(nlc_network *network, const double *normal, int6
 /* The variant of the sweep's inner loop; NULL: the portable code. */
 const nlc_variant *nlc_variant_of(const nlc_network *network);
 
-/* Pairs of contacts on a particle, 0 if there are more than NLC_BLOCK contacts; and on those from first to end. */
-static inline int64_t nlc_pairs_on(const nlc_network *n, int64_t particle)
-{
-    const int64_t count = n->start[particle + 1] - n->start[particle];
-    return count > NLC_BLOCK ? 0 : count * (count - 1) / 2;
-}
-int64_t nlc_count_pairs(const nlc_network *network, int64_t first, int64_t end);
+/* Numbers that the cache is to hold. */
+int64_t nlc_count_kept(const nlc_network *network);
 
 /* nlc_displace for the sides of one particle.  False: two directions are the same. */
 bool nlc_displace_particle(nlc_network *network, nlc_response response, const double *force, const double *normal,

@@ -126,6 +126,6 @@ nlc_status nlc_set_options(nlc_network *network, const nlc_options *options, nlc
 size_t nlc_cache_size(const nlc_network *network)
 {
     if (!network || !nlc_network_is_valid(network)) return 0;
-    const size_t pairs = (size_t)nlc_count_pairs(network, 0, network->particle_count), each = (size_t)network->settings.model->kept * sizeof(double);
-    return each > 0 && pairs > PTRDIFF_MAX / each ? PTRDIFF_MAX : pairs * each;
+    const int64_t kept = nlc_count_kept(network), most = PTRDIFF_MAX / (int64_t)sizeof(double);
+    return (size_t)(kept < most ? kept : most) * sizeof(double);
 }

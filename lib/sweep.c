@@ -142,11 +142,38 @@ static bool in_range(const nlc_network *n, const double *force, const double *no
     return e + 512 <= 1020 || e + closeness(n, normal) <= 1020;
 }
 
-int64_t nlc_count_pairs(const nlc_network *n, int64_t first, int64_t end)
+/* Pairs of contacts on a particle; 0 if there are more than a block holds. */
+static int64_t pairs_on(const nlc_network *n, int64_t particle)
+{
+    const int64_t count = n->start[particle + 1] - n->start[particle];
+    return count > NLC_BLOCK ? 0 : count * (count - 1) / 2;
+}
+
+/* Numbers in the cache for a window. */
+static int64_t kept_in(const nlc_network *n, int64_t window)
+{
+    const int64_t first = window * NLC_WINDOW, end = nlc_end_of(window, NLC_WINDOW, n->particle_count);
+    const nlc_variant *variant = nlc_variant_of(n);
+    int64_t sum = 0;
+    if (variant) return variant->kept_in(n, first, end);
+    for (int64_t k = first; k < end && n->settings.model->kept > 0; k++) sum += n->settings.model->kept * pairs_on(n, k);
+    return sum;
+}
+
+int64_t nlc_count_kept(const nlc_network *n)
 {
     int64_t sum = 0;
-    for (int64_t k = first; k < end; k++) sum += nlc_pairs_on(n, k);
+    for (int64_t w = 0; w < nlc_windows(n); w++) sum += kept_in(n, w);
     return sum;
+}
+
+static void lay_out_cache(nlc_network *n)
+{
+    int64_t sum = 0;
+    for (int64_t w = 0; w < nlc_windows(n); w++) {
+        n->kept_at[w] = sum;
+        sum += n->settings.cache ? kept_in(n, w) : 0;
+    }
 }
 
 /* What the windows of a sweep have in common. */
@@ -162,9 +189,9 @@ static int64_t displace_window(const job *s, int64_t first, int64_t end)
     nlc_network *n = s->n;
     const int per_pair = n->settings.model->kept;
     const int64_t room = n->settings.cache ? (int64_t)(n->settings.cache_size / sizeof(double)) : 0;
-    int64_t at = per_pair * n->pairs[first / NLC_WINDOW];
+    int64_t at = n->kept_at[first / NLC_WINDOW];
     for (int64_t k = first; k < end; k++) {
-        const int64_t wanted = per_pair * nlc_pairs_on(n, k);
+        const int64_t wanted = per_pair * pairs_on(n, k);
         const bool fits = wanted > 0 && at + wanted <= room;
         if (!displace_particle(n, s->response, s->force, s->normal, k, fits ? n->settings.cache + at : NULL, fits && n->cached)) return k;
         at += wanted;
@@ -192,6 +219,7 @@ static nlc_status displace(nlc_network *n, nlc_response response, const double *
     int64_t bad = -1;
     *culprit = -1;
     if (n->settings.model->within && !in_range(n, force, normal)) return NLC_ERROR_RANGE;
+    if (!n->cached) lay_out_cache(n);
     nlc_for(n, displace_task, &all, nlc_windows(n));
     for (int64_t w = 0; w < nlc_windows(n) && bad < 0; w++) bad = n->piece[w].bad;
     n->cached = bad < 0;

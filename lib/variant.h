@@ -33,6 +33,8 @@ typedef struct nlc_variant {
      */
     int64_t (*displace)(nlc_network *network, const double *force, const double *weighed, const double *normal, int64_t first,
                         int64_t end);
+    /* Numbers that displace keeps in the cache for the particles from first to end, a window at most. */
+    int64_t (*kept_in)(const nlc_network *network, int64_t first, int64_t end);
     /*
      * Whether the blocks (bound.h) of the particles from first to end, a window at most, have eigenvalues below a limit only: network->changed is 0
      * where that is so, 1 where it is not or is left open.  root [contacts][2]: (U D / share)^1/2 of each side.

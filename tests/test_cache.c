@@ -128,7 +128,7 @@ START_TEST(crowd)
 }
 END_TEST
 
-/* Two numbers for each pair of contacts of a particle. */
+/* Two numbers for each pair of contacts of a particle, or one in each lane of a vector. */
 START_TEST(size)
 {
     const double stretch[3] = {0.98, 0.98, 0.98};
@@ -136,6 +136,10 @@ START_TEST(size)
     scene_init(&s);
     scene_cell(&s, SIMPLE_CUBIC, 1, 1, 0.3, stretch); /* one sphere, six sides */
     ck_assert_int_eq(scene_build(&s), NLC_OK);
+    ck_assert_uint_eq(nlc_cache_size(s.network) % (15 * 2 * sizeof(double)), 0);
+    ck_assert_uint_le(nlc_cache_size(s.network), 15 * 8 * sizeof(double));
+    s.options.simd = NLC_SIMD_GENERIC;
+    ck_assert_int_eq(nlc_set_options(s.network, &s.options, NULL), NLC_OK);
     ck_assert_uint_eq(nlc_cache_size(s.network), 0);
     s.options.model = NLC_MODEL_SPHERE;
     ck_assert_int_eq(nlc_set_options(s.network, &s.options, NULL), NLC_OK);
