@@ -2,6 +2,13 @@
 /* close.c - circles of contact that overlap each other: point forces are no model of these. */
 #include "network.h"
 
+/* The overlap that a contact has, or would have alone if others push it open. */
+static double alone(const nlc_network *n, const double *overlap, int64_t c)
+{
+    const double g = n->current[c];
+    return overlap[c] + 0.5 * (g + fabs(g));
+}
+
 /*
  * Radius of a contact's circle, a^2 = R_eff x with 1/R_eff = 1/R_i + 1/R_j ([GC] 7 and 8), in units of the particle's R.  One
  * that its neighbour has pushed open counts with the circle that it would have alone: there might be another solution, in
@@ -10,7 +17,7 @@
 static double radius_of(const nlc_network *n, int64_t c, int64_t particle, const double *overlap)
 {
     const int64_t other = n->i[c] == particle ? n->j[c] : n->i[c];
-    const double g = n->current[c], x = overlap[c] + (g > 0 ? g : 0), R = n->radius[particle];
+    const double x = alone(n, overlap, c), R = n->radius[particle];
     const double S = other < n->particle_count ? n->radius[other] : INFINITY, larger = R > S ? R : S;
     const double quarter = 0.125 * (x + fabs(x)), capped = quarter < R ? quarter : R; /* a beyond 2 R is as good as 2 R */
     /* R_eff / R = 1 / (1 + R/S), by ratios that are at most 1 */
@@ -68,7 +75,11 @@ static double largest_reduced(const nlc_network *n, const double *overlap)
 {
     double largest = 0;
     for (int64_t c = 0; c < n->contact_count; c++) {
-        const double g = n->current[c], x = overlap[c] + (g > 0 ? g : 0);
+        const double half = 0.5 * alone(n, overlap, c);
+        largest = half > largest ? half : largest; /* none is reduced to less than its half */
+    }
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        const double x = alone(n, overlap, c);
         if (x <= largest) continue; /* what it is reduced to is less */
         const int64_t i = n->i[c], j = n->j[c];
         const double R = i < n->particle_count ? n->radius[i] : INFINITY, S = j < n->particle_count ? n->radius[j] : INFINITY;

@@ -99,8 +99,8 @@ static result look(nlc_iteration *q, const double *nonlocal)
         const double before = x + nonlocal[c] * q->per_overlap, y = x + g, a = n->largest[i], b = n->largest[j];
         r.lost |= fabs(g) > NLC_FARTHEST;
         r.grown |= y > 0 && y > weighed_overlap(before);
-        const double most = before > y ? before : y, slope = 1.5 * k * sqrt(0.5 * (most + fabs(most)));
-        const double z = (y < NLC_FARTHEST ? nlc_law(k, y) : 1e10) - n->force[c], size = fabs(z), scale = a > b ? a : b;
+        const double positive = 0.5 * (y + fabs(y)), rise = k * sqrt(positive < NLC_FARTHEST ? positive : NLC_FARTHEST), slope = 1.5 * rise;
+        const double z = rise * positive - n->force[c], size = fabs(z), scale = a > b ? a : b;
         const double energy = size * fabs(y - before);
         if (i < n->particle_count) {
             sum[i] += energy;
