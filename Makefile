@@ -114,6 +114,9 @@ FIGURES := $(B)/bench/figures/figures
 FIGURES_OBJ := $(patsubst $(S)/%.c,$(B)/%.o,$(sort $(wildcard $(S)/bench/figures/*.c)))
 $(FIGURES): $(FIGURES_OBJ) $(B)/bench/line_chart.o $(B)/bench/reference_table.o $(STATIC)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
+BEDS := $(B)/bench/figures/bed/compact
+$(BEDS): $(patsubst $(S)/%.c,$(B)/%.o,$(sort $(wildcard $(S)/bench/figures/bed/*.c))) $(STATIC)
+	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
 figures: $(FIGURES) ## the figures of Gonzalez and Cuitino (2012) as pictures and data, in build/figures
 	@mkdir -p $(B)/figures
 	@$(FIGURES) $(S)/bench $(B)/figures
@@ -146,7 +149,7 @@ $(B)/tests/%.o: $(S)/tests/%.c
 $(B)/tests/%: $(B)/tests/%.o $(TEST_COMMON) $(BENCH_COMMON) $(STATIC)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK_LIBS) $(LIBS)
 
-check: lib packing $(B)/bench/accuracy $(FIGURES) $(TESTS) ## build and run every test (needs what `make setup` installs)
+check: lib packing $(B)/bench/accuracy $(FIGURES) $(BEDS) $(TESTS) ## build and run every test (needs what `make setup` installs)
 	@S='$(abspath $(S))' B='$(abspath $(B))' CC='$(CC)' CXX='$(CXX)' FC='$(FC)' MAKE='$(MAKE)' EMULATOR='$(EMULATOR)' \
 		PKG_CONFIG='$(PKG_CONFIG)' VERSION='$(VERSION)' sh $(S)/tests/run $(abspath $(TESTS) $(TEST_SCRIPTS))
 
@@ -184,4 +187,4 @@ dist: ## make a source archive, the same bytes every time
 clean: ## remove everything that was built
 	rm -rf $(B)
 
--include $(wildcard $(B)/lib/*.d $(B)/lib/*/*.d $(B)/bench/*.d $(B)/bench/figures/*.d $(B)/tests/*.d)
+-include $(wildcard $(B)/lib/*.d $(B)/lib/*/*.d $(B)/bench/*.d $(B)/bench/figures/*.d $(B)/bench/figures/bed/*.d $(B)/tests/*.d)
