@@ -26,6 +26,8 @@ static figure all[] = {
     {.name = "fig14_preloaded_forces", .draw = preloaded_forces},
     {.name = "fig16_bcc_hydrostatic", .draw = hydrostatic},
     {.name = "fig17_bcc_die", .draw = die},
+    {.name = "fig18_bed", .draw = bed_pictures},
+    {.name = "fig19_bed_loads", .draw = bed_loads},
 };
 enum { FIGURES = sizeof all / sizeof all[0] };
 
@@ -89,24 +91,41 @@ void legend_of_poissons(figure *f, const double *poisson)
     }
 }
 
-static bool write_file(const figure *f, const char *folder, const char *suffix, void (*write)(FILE *, const line_chart *))
+bool fail_figure(const figure *f, const char *text)
 {
-    char path[PATH];
-    if (snprintf(path, sizeof path, "%s/%s.%s", folder, f->name, suffix) >= PATH) return fail(folder, "the path is too long");
-    FILE *out = fopen(path, "w");
-    if (!out) return fail(path, strerror(errno));
-    write(out, &f->chart);
-    const bool bad = ferror(out) != 0;
-    return fclose(out) == 0 && !bad ? true : fail(path, "cannot be written");
+    return fail(f->name, text);
 }
 
-static bool make(figure *f, const char *folder)
+FILE *figure_open(const figure *f, const char *suffix)
+{
+    char path[PATH];
+    const bool fits = snprintf(path, sizeof path, "%s/%s.%s", f->output, f->name, suffix) < PATH;
+    FILE *out = fits ? fopen(path, "w") : NULL;
+    if (!out) fail(f->output, fits ? strerror(errno) : "the path is too long");
+    return out;
+}
+
+bool figure_close(const figure *f, FILE *out)
+{
+    const bool bad = ferror(out) != 0;
+    return fclose(out) == 0 && !bad ? true : fail(f->name, "cannot be written");
+}
+
+static bool write_file(const figure *f, const char *suffix, void (*write)(FILE *, const line_chart *))
+{
+    FILE *out = figure_open(f, suffix);
+    if (out) write(out, &f->chart);
+    return out && figure_close(f, out);
+}
+
+static bool make(figure *f)
 {
     const clock_t start = clock();
     f->chart = (line_chart){.columns = 2, .width = 340, .height = 240};
     bool good = f->draw(f);
     if (good && f->chart.failed) good = fail(f->name, "out of memory");
-    good = good && write_file(f, folder, "svg", line_chart_write_svg) && write_file(f, folder, "csv", line_chart_write_csv);
+    if (f->chart.panels > 0)
+        good = good && write_file(f, "svg", line_chart_write_svg) && write_file(f, "csv", line_chart_write_csv);
     line_chart_free(&f->chart);
     if (good) printf("%s: %.2f s\n", f->name, (double)(clock() - start) / CLOCKS_PER_SEC);
     return good;
@@ -114,11 +133,12 @@ static bool make(figure *f, const char *folder)
 
 int main(int argc, char **argv)
 {
-    char path[PATH];
-    if (argc != 3) {
-        fputs("usage: figures BENCH-FOLDER OUTPUT-FOLDER\n", stderr);
+    char path[PATH], beds[PATH];
+    if (argc != 3 && argc != 4) {
+        fputs("usage: figures BENCH-FOLDER OUTPUT-FOLDER [FOLDER-OF-BEDS]\n", stderr);
         return EXIT_USAGE;
     }
+    snprintf(beds, sizeof beds, "%s/data/bed", argv[1]); /* those that were made before */
     snprintf(path, sizeof path, "%s/numbers.csv", argv[2]);
     FILE *numbers = fopen(path, "w");
     if (!numbers) return !fail(path, strerror(errno));
@@ -127,7 +147,9 @@ int main(int argc, char **argv)
     for (int k = 0; k < FIGURES && good; k++) {
         all[k].numbers = numbers;
         all[k].bench = argv[1];
-        good = make(&all[k], argv[2]);
+        all[k].output = argv[2];
+        all[k].beds = argc == 4 ? argv[3] : beds;
+        good = make(&all[k]);
     }
     if (ferror(numbers)) good = fail(path, "cannot be written");
     if (fclose(numbers) != 0) good = fail(path, "cannot be written");

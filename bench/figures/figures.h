@@ -19,6 +19,8 @@ typedef struct figure {
     line_chart chart;
     FILE *numbers;
     const char *bench; /* the folder of the tables */
+    const char *beds;  /* the folder of what bed/compact writes */
+    const char *output;
 } figure;
 
 /* Each fills the chart and tells its numbers; false: something failed, and a message says what. */
@@ -32,6 +34,13 @@ bool preloaded_square(figure *f); /* Fig. 13 */
 bool preloaded_forces(figure *f); /* Fig. 14 */
 bool hydrostatic(figure *f);      /* Fig. 16 */
 bool die(figure *f);              /* Fig. 17 */
+bool bed_pictures(figure *f);     /* Figs. 18 and 19, the beds; writes its picture itself */
+bool bed_loads(figure *f);        /* Fig. 19 */
+
+/* A message; false.  A file of the figure to be written: NULL or false, and a message, if that fails. */
+bool fail_figure(const figure *f, const char *text);
+FILE *figure_open(const figure *f, const char *suffix);
+bool figure_close(const figure *f, FILE *out);
 
 /* A line of numbers.csv: a result, NaN if there is none, and the paper's number, NaN where it has none. */
 void tell(const figure *f, const char *what, double value, double paper);
