@@ -416,6 +416,16 @@ module nlcontact
             type(nlc_info), intent(inout), optional :: info
         end function
 
+        function nlc_assemble_turning(network, total_force, total_force_stride, force, overlap, normal, info) bind(c)
+            import
+            integer(c_int32_t) :: nlc_assemble_turning
+            type(c_ptr), value :: network
+            real(c_double), intent(inout) :: total_force(*)
+            integer(c_intptr_t), value :: total_force_stride
+            real(c_double), intent(in) :: force(*), overlap(*), normal(*)
+            type(nlc_info), intent(inout), optional :: info
+        end function
+
         function nlc_assemble_sliding(network, total_force, total_force_stride, torque, torque_stride, wall_force, &
                 force, normal, sliding, displacement, overlap, friction, info) bind(c)
             import

@@ -831,6 +831,30 @@ NLC_API nlc_status nlc_assemble(const nlc_network *network, double *NLC_RESTRICT
                                 const double *NLC_RESTRICT normal, nlc_info *info);
 
 /*
+ * nlc_assemble_turning - adds what the energy of nlc_energy does to particles beyond nlc_assemble: forces across the contacts, since
+ * the coupling depends on the angles between them, and these change as contacts turn.
+ *
+ *     F -= P.(dC/dx).P / 2
+ *
+ * Added to the forces of nlc_assemble it makes them the derivative of nlc_energy by the positions, so that a host without damping
+ * keeps its energy.  It is some 0.1 % of P in a dense packing.  [GC] and [MC] leave it out.
+ *
+ * network    from nlc_network_init, with a model that has an energy
+ * F          [particles][3] in-out [N]
+ * F_stride   bytes from one particle's force to the next; 0: packed, 24
+ * force      [contacts] P of nlc_solve [N], converged and not weakened: others have no energy
+ * overlap    [contacts] those of the forces [m]; the centres of two particles are R_i + R_j - gamma apart
+ * normal     [contacts][3] as for nlc_solve
+ * info       or NULL
+ * Contacts with walls and of a particle with itself (i = j) do not turn.  The sum of what is added is 0.
+ * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _NO_POTENTIAL, _STRIDE, _FORCE, _NORMAL, _TOTAL_FORCE, _OVERLAP (or one of
+ * R_i + R_j and more), _COINCIDENT (directions within 2^-50), _RANGE.
+ */
+NLC_API nlc_status nlc_assemble_turning(const nlc_network *network, double *NLC_RESTRICT F, ptrdiff_t F_stride,
+                                        const double *NLC_RESTRICT force, const double *NLC_RESTRICT overlap,
+                                        const double *NLC_RESTRICT normal, nlc_info *info);
+
+/*
  * nlc_assemble_sliding - the same with saturated friction where contacts slide, and its torques at the contact points of deformed
  * particles.                                                                                               [MC] III, IV
  *

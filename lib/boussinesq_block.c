@@ -141,3 +141,11 @@ double nlc_case_one_most(const nlc_kernel *kernel, double distance)
 {
     return fabs(kernel->c[0]) / distance + fabs(kernel->c[1]) + 2 * fabs(kernel->c[2]); /* |N_c - N_d| is at most 2 */
 }
+
+/* c = c0 t^(-1/2) + c1 + c2 t^(1/2) */
+double nlc_case_one_turning(const nlc_kernel *kernel, double t, double moment, double tilted)
+{
+    const double r = 1 / sqrt(t + DBL_MIN);
+    (void)moment, (void)tilted;
+    return 0.5 * r * (kernel->c[2] - kernel->c[0] * r * r);
+}

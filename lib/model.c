@@ -9,7 +9,7 @@
 
 #define CASE_ONE                                                                                                            \
     .within = nlc_case_one_within, .between = nlc_case_one_between, .coefficients = nlc_case_one_coefficients,              \
-    .squares = nlc_case_one_squares, .most = nlc_case_one_most
+    .squares = nlc_case_one_squares, .turning = nlc_case_one_turning, .most = nlc_case_one_most
 
 const nlc_model nlc_models[] = {
     [NLC_MODEL_GONZALEZ_CUITINO] = {.name = "gonzalez-cuitino",
@@ -72,7 +72,8 @@ const nlc_model nlc_models[] = {
                           .within = nlc_sphere_within,
                           .between = nlc_sphere_between,
                           .coefficients = nlc_sphere_coefficients,
-                          .squares = nlc_sphere_squares},
+                          .squares = nlc_sphere_squares,
+                          .turning = nlc_sphere_turning},
     [NLC_MODEL_POINT_FORCE] = {.name = "point-force",
                                .reference = "point force on the elastic sphere, Brodu, Dijksman and Behringer 2015, Table I",
                                .doi = MC_DOI,
@@ -87,7 +88,8 @@ const nlc_model nlc_models[] = {
                                .within = nlc_sphere_within,
                                .between = nlc_sphere_between,
                                .coefficients = nlc_sphere_coefficients,
-                               .squares = nlc_sphere_squares},
+                               .squares = nlc_sphere_squares,
+                               .turning = nlc_sphere_turning},
 };
 
 const nlc_model nlc_half_space_undeformed = {.name = "half-space",

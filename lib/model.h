@@ -83,6 +83,11 @@ typedef struct nlc_model {
      */
     void (*coefficients)(double *coefficient, const nlc_block *a, int c, const nlc_kernel *kernel);
     double (*squares)(nlc_block *a, const nlc_kernel *kernel);
+    /*
+     * dc/dt of the coefficient c in the energy of two contacts at the squared distance t, whose (a/R)^2 / 10 add to moment and, times
+     * their tilts, to tilted: see turning.c.  NULL in a model without potential, or without coupling.
+     */
+    double (*turning)(const nlc_kernel *kernel, double t, double moment, double tilted);
     /* No coefficient of directions that are at least so far apart is larger. */
     double (*most)(const nlc_kernel *kernel, double distance);
 } nlc_model;
@@ -98,6 +103,7 @@ bool nlc_case_one_within(nlc_block *a, const nlc_kernel *kernel);
 bool nlc_case_one_between(nlc_block *a, nlc_block *b, const nlc_kernel *kernel);
 void nlc_case_one_coefficients(double *coefficient, const nlc_block *a, int c, const nlc_kernel *kernel);
 double nlc_case_one_squares(nlc_block *a, const nlc_kernel *kernel);
+double nlc_case_one_turning(const nlc_kernel *kernel, double t, double moment, double tilted);
 double nlc_case_one_most(const nlc_kernel *kernel, double distance);
 
 /* Case II of [GC]: love_block.c */
@@ -116,5 +122,6 @@ bool nlc_sphere_within(nlc_block *a, const nlc_kernel *kernel);
 bool nlc_sphere_between(nlc_block *a, nlc_block *b, const nlc_kernel *kernel);
 void nlc_sphere_coefficients(double *coefficient, const nlc_block *a, int c, const nlc_kernel *kernel);
 double nlc_sphere_squares(nlc_block *a, const nlc_kernel *kernel);
+double nlc_sphere_turning(const nlc_kernel *kernel, double t, double moment, double tilted);
 
 #endif

@@ -51,3 +51,23 @@ nlc_self nlc_sphere_model_self(const nlc_kernel *kernel, double t2, double tilt)
             t * (at(q->energy[1], tilt) + t * (at(q->energy[2], tilt) + at(q->energy_log[1], tilt) * L)),
     };
 }
+
+/* Derivative by t of one of the series of sphere.h, h = t^(1/2). */
+static double slope_of(const nlc_sphere_series *k, bool cubic, double t)
+{
+    const double h = sqrt(t), r = 1 / h, y = h - 1;
+    double log = 0, log_slope = 0, slope = 0;
+    for (int i = NLC_SPHERE_LOG - 1; i >= 0; i--) {
+        log_slope = log_slope * t + log;
+        log = log * t + k->log[i];
+    }
+    for (int i = NLC_SPHERE_SMOOTH - 1; i > 0; i--) slope = slope * y + i * k->smooth[i];
+    const double poles = -0.5 * r * r * r * (k->pole + (cubic ? 3 * r * r * k->pole3 : 0));
+    return poles + 0.5 * r * r * log + nlc_half_log(t) * log_slope + 0.5 * r * slope;
+}
+
+/* The coefficient in the energy is -(S + moment D + tilted E), see sphere_block.c. */
+double nlc_sphere_turning(const nlc_kernel *kernel, double t, double moment, double tilted)
+{
+    return -(slope_of(&kernel->sphere.s, false, t) + moment * slope_of(&kernel->sphere.d, true, t) + tilted * slope_of(&kernel->tilted, true, t));
+}
