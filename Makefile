@@ -15,6 +15,8 @@ includedir ?= $(prefix)/include
 libdir ?= $(exec_prefix)/lib
 datarootdir ?= $(prefix)/share
 mandir ?= $(datarootdir)/man
+pkgconfigdir ?= $(libdir)/pkgconfig
+cmakedir ?= $(libdir)/cmake/nlcontact
 DESTDIR ?=
 INSTALL ?= install
 CROSS_COMPILE ?=
@@ -41,7 +43,9 @@ WARNINGS ?= -Wall -Wextra
 ALL_CPPFLAGS = -I$(S)/include $(CPPFLAGS)
 ALL_CFLAGS = -std=c11 $(WARNINGS) -ffile-prefix-map=$(S)/= $(CFLAGS)
 # No contraction into fused multiply-adds behind our back, and no errno from sqrt: results and flags are as written.
-LIB_CFLAGS = -std=c11 $(WARNINGS) -fPIC -fvisibility=hidden -ffp-contract=off -fno-math-errno -ffile-prefix-map=$(S)/= $(CFLAGS)
+# No folder's name in debug information either: the same bytes wherever it is built.
+PREFIX_MAP = -ffile-prefix-map=$(CURDIR)=. -ffile-prefix-map=$(S)/lib=lib -ffile-prefix-map=$(S)/include=include
+LIB_CFLAGS = -std=c11 $(WARNINGS) -fPIC -fvisibility=hidden -ffp-contract=off -fno-math-errno $(PREFIX_MAP) $(CFLAGS)
 DEPFLAGS = -MMD -MP
 LIBS := -lm
 # The shared library is linked with all it needs; sanitized ones get it from the program.
@@ -53,9 +57,10 @@ STATIC := $(B)/libnlcontact.a
 SONAME := libnlcontact.so.$(SO_MAJOR)
 SHARED := $(B)/libnlcontact.so.$(VERSION)
 PC := $(B)/nlcontact.pc
+CMAKE := $(B)/nlcontact-config.cmake $(B)/nlcontact-config-version.cmake
 MAN := $(sort $(wildcard $(S)/man/*.3))
 
-.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist clean FORCE
+.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist distcheck clean FORCE
 all: lib packing ## build the libraries and the packing program
 lib: $(STATIC) $(SHARED) ## build the static and the shared library
 
@@ -84,6 +89,11 @@ $(PC): FORCE
 	sed -e 's|@prefix@|$(prefix)|' -e 's|@exec_prefix@|$(patsubst $(prefix)%,$${prefix}%,$(exec_prefix))|' \
 		-e 's|@libdir@|$(patsubst $(exec_prefix)/%,$${exec_prefix}/%,$(libdir))|' \
 		-e 's|@includedir@|$(patsubst $(prefix)/%,$${prefix}/%,$(includedir))|' -e 's|@version@|$(VERSION)|' $(S)/nlcontact.pc.in > $@
+
+$(B)/%.cmake: $(S)/%.cmake.in FORCE
+	@mkdir -p $(@D)
+	sed -e 's|@libdir@|$(libdir)|' -e 's|@includedir@|$(includedir)|' -e 's|@cmakedir@|$(cmakedir)|' -e 's|@soname@|$(SONAME)|' \
+		-e 's|@version@|$(VERSION)|' $< > $@
 
 # ---- programs on a packing, and on single spheres
 BENCH_SRC := $(sort $(wildcard $(S)/bench/*.c))
@@ -161,29 +171,49 @@ setup: ## install what the tests need with the system's package manager
 	@sh $(S)/tests/setup
 
 # ---- installation
-install: lib $(PC) ## install header, Fortran module, libraries, man pages and nlcontact.pc below DESTDIR and PREFIX
-	$(INSTALL) -d $(DESTDIR)$(includedir) $(DESTDIR)$(libdir)/pkgconfig $(DESTDIR)$(mandir)/man3
+install: lib $(PC) $(CMAKE) ## install header, Fortran module, libraries, man pages and what pkg-config and CMake need, below DESTDIR and PREFIX
+	$(INSTALL) -d $(DESTDIR)$(includedir) $(DESTDIR)$(libdir) $(DESTDIR)$(pkgconfigdir) $(DESTDIR)$(cmakedir)
+	$(INSTALL) -d $(DESTDIR)$(mandir)/man3
 	$(INSTALL) -m 644 $(S)/include/nlcontact.h $(S)/include/nlcontact.f90 $(DESTDIR)$(includedir)/
 	$(INSTALL) -m 644 $(STATIC) $(DESTDIR)$(libdir)/
 	$(INSTALL) -m 755 $(SHARED) $(DESTDIR)$(libdir)/
 	ln -sf $(notdir $(SHARED)) $(DESTDIR)$(libdir)/$(SONAME)
 	ln -sf $(SONAME) $(DESTDIR)$(libdir)/libnlcontact.so
-	$(INSTALL) -m 644 $(PC) $(DESTDIR)$(libdir)/pkgconfig/
+	$(INSTALL) -m 644 $(PC) $(DESTDIR)$(pkgconfigdir)/
+	$(INSTALL) -m 644 $(CMAKE) $(DESTDIR)$(cmakedir)/
 	$(INSTALL) -m 644 $(MAN) $(DESTDIR)$(mandir)/man3/
 
+# What install makes, file by file; of the folders, the one that is nobody else's.
 uninstall: ## remove what install put there
-	rm -f $(DESTDIR)$(includedir)/nlcontact.h $(DESTDIR)$(includedir)/nlcontact.f90 $(DESTDIR)$(libdir)/libnlcontact.a $(DESTDIR)$(libdir)/libnlcontact.so \
-		$(DESTDIR)$(libdir)/$(SONAME) $(DESTDIR)$(libdir)/$(notdir $(SHARED)) $(DESTDIR)$(libdir)/pkgconfig/nlcontact.pc \
-		$(foreach m,$(notdir $(MAN)),$(DESTDIR)$(mandir)/man3/$(m))
+	rm -f $(addprefix $(DESTDIR)$(includedir)/,nlcontact.h nlcontact.f90)
+	rm -f $(addprefix $(DESTDIR)$(libdir)/,$(notdir $(STATIC) $(SHARED)) $(SONAME) libnlcontact.so)
+	rm -f $(DESTDIR)$(pkgconfigdir)/nlcontact.pc $(addprefix $(DESTDIR)$(cmakedir)/,$(notdir $(CMAKE)))
+	rm -f $(foreach m,$(notdir $(MAN)),$(DESTDIR)$(mandir)/man3/$(m))
+	rmdir $(DESTDIR)$(cmakedir) 2>/dev/null || :
 
 DISTNAME := nlcontact-$(VERSION)
-DIST_FILES = Makefile README COPYING nlcontact.pc.in include lib tests bench man tools examples
+DIST_FILES = Makefile README COPYING nlcontact.pc.in nlcontact-config.cmake.in nlcontact-config-version.cmake.in include lib tests \
+	bench man tools examples
 dist: ## make a source archive, the same bytes every time
 	@mkdir -p $(B)
-	cd $(S) && tar --sort=name --owner=0 --group=0 --numeric-owner --mode=u+rw,go=rX --mtime=@0 --format=gnu \
+	cd $(S) && tar --exclude=__pycache__ --sort=name --owner=0 --group=0 --numeric-owner --mode=u+rw,go=rX --mtime=@0 --format=gnu \
 		--transform='s|^|$(DISTNAME)/|' -cf $(abspath $(B))/$(DISTNAME).tar $(DIST_FILES)
 	gzip -n -9 -f $(B)/$(DISTNAME).tar
 	@echo $(B)/$(DISTNAME).tar.gz
+
+DISTCHECK := $(abspath $(B))/distcheck
+# CFLAGS and the like are handed on; installation goes to the folders that are the default.
+DISTCHECK_MAKE = $(MAKE) -f $(DISTCHECK)/$(DISTNAME)/Makefile B=$(DISTCHECK)/build DESTDIR=$(DISTCHECK)/stage PREFIX=/usr/local
+distcheck: dist ## from the archive, unpacked elsewhere and write-protected: check, install, uninstall, the same archive again
+	if [ -e $(DISTCHECK) ]; then chmod -R u+w $(DISTCHECK) && rm -rf $(DISTCHECK); fi
+	mkdir $(DISTCHECK)
+	gzip -dc $(B)/$(DISTNAME).tar.gz | tar -C $(DISTCHECK) -xf -
+	chmod -R a-w $(DISTCHECK)/$(DISTNAME)
+	cd $(DISTCHECK) && $(DISTCHECK_MAKE) check && $(DISTCHECK_MAKE) install && $(DISTCHECK_MAKE) uninstall && $(DISTCHECK_MAKE) dist
+	left=$$(find $(DISTCHECK)/stage ! -type d) && [ -z "$$left" ] || { echo "uninstall leaves $$left"; exit 1; }
+	cmp $(B)/$(DISTNAME).tar.gz $(DISTCHECK)/build/$(DISTNAME).tar.gz
+	chmod -R u+w $(DISTCHECK) && rm -rf $(DISTCHECK)
+	@echo "$(DISTNAME).tar.gz is ready to be given away"
 
 clean: ## remove everything that was built
 	rm -rf $(B)

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-2-Clause
-# Building: the source archive has the same bytes every time and builds, any folder will do to build in, and nothing is
-# built twice.
+# Building: the source archive and the libraries have the same bytes every time and wherever they are made, any folder will do
+# to build in, and nothing is built twice.
 set -eu
 fail() { echo "test_build: $*" >&2; exit 1; }
 tmp=$(mktemp -d)
@@ -10,12 +10,12 @@ trap 'exit 1' HUP INT TERM
 # the caller's make and its variables are none of our business
 unset MAKEFLAGS MFLAGS GNUMAKEFLAGS MAKELEVEL B CPPFLAGS LDFLAGS WARNINGS
 run_make() {
-    $MAKE -s CC="$CC" CXX="$CXX" CFLAGS=-O1 "$@" >"$tmp/log" 2>&1 || { cat "$tmp/log"; fail "make $* fails"; }
+    $MAKE -s CC="$CC" CXX="$CXX" CFLAGS="-O1 -g" "$@" >"$tmp/log" 2>&1 || { cat "$tmp/log"; fail "make $* fails"; }
 }
 
 # The targets that `make help` lists are those that are not files.
 $MAKE -s -C "$S" B="$tmp/none" help >"$tmp/help" || fail "make help fails"
-for target in all check examples stress demo bench accuracy figures setup install uninstall dist clean; do
+for target in all check examples stress demo bench accuracy figures setup install uninstall dist distcheck clean; do
     grep -q "^  make $target  *[a-z]" "$tmp/help" || fail "make help does not list $target"
 done
 phony=" $(sed -n 's/^\.PHONY: *//p' "$S/Makefile" | tr '\n' ' ') "
@@ -41,7 +41,7 @@ for folder in lib man tests; do
     gzip -dc "$tmp/1/$archive" | tar -tf - | grep "/$folder/" | LC_ALL=C sort -c ||
         fail "the archive is in the order of the disk"
 done
-for file in Makefile README COPYING nlcontact.pc.in include/nlcontact.h lib/nlcontact.map man/nlcontact.3 tests/run; do
+for file in Makefile README COPYING nlcontact.pc.in nlcontact-config.cmake.in nlcontact-config-version.cmake.in include/nlcontact.h lib/nlcontact.map man/nlcontact.3 tests/run; do
     [ -s "$source/$file" ] || fail "the archive has no $file"
 done
 
@@ -55,9 +55,22 @@ diff "$tmp/before" "$tmp/after" || fail "building in another folder changes the 
 for file in libnlcontact.a libnlcontact.so libnlcontact.so."$VERSION"; do
     [ -s "build/$file" ] || fail "make lib makes no $file"
 done
-$MAKE -q -f "$source/Makefile" CC="$CC" CXX="$CXX" CFLAGS=-O1 lib || fail "make lib has something to do the second time"
+$MAKE -q -f "$source/Makefile" CC="$CC" CXX="$CXX" CFLAGS="-O1 -g" lib || fail "make lib has something to do the second time"
+
+# The same bytes from inside the sources, in a folder of another name, and from a copy of the sources, dated otherwise; debug
+# information included.
+cp -r "$source" "$tmp/copy"
+find "$tmp/copy" -exec touch -d '2001-02-03 04:05:06' {} +
+(umask 077 && LC_ALL=C TZ=Asia/Tokyo && export LC_ALL TZ && run_make -j2 -C "$tmp/copy" B=a/folder/to/build/in lib)
+(cd "$source/lib" && run_make -j2 -f ../Makefile B="$tmp/absolute" lib)
+for file in libnlcontact.a libnlcontact.so."$VERSION"; do
+    for other in "$tmp/copy/a/folder/to/build/in" "$tmp/absolute"; do
+        cmp "build/$file" "$other/$file" || fail "$file has other bytes when it is built in another folder"
+    done
+    ! grep -qF "$tmp" "build/$file" || fail "$file knows where it was built"
+done
 touch "$source/include/nlcontact.h"
-! $MAKE -q -f "$source/Makefile" CC="$CC" CXX="$CXX" CFLAGS=-O1 lib || fail "make lib does not see a changed header"
+! $MAKE -q -f "$source/Makefile" CC="$CC" CXX="$CXX" CFLAGS="-O1 -g" lib || fail "make lib does not see a changed header"
 run_make -f "$source/Makefile" clean
 [ ! -e build ] || fail "make clean leaves something"
-echo "test_build: help, dist, build elsewhere, build twice: ok"
+echo "test_build: help, dist, build elsewhere, build twice, the same bytes everywhere: ok"
