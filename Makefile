@@ -4,6 +4,7 @@
 .SUFFIXES:
 
 VERSION := $(shell sed -n 's/^.define NLC_VERSION_[A-Z]* //p' $(dir $(lastword $(MAKEFILE_LIST)))include/nlcontact.h | paste -sd. -)
+# Raised only by what breaks a program built with an older header, whatever the version is then called: see CONTRIBUTING.
 SO_MAJOR := 0
 
 S := $(patsubst %/,%,$(dir $(lastword $(MAKEFILE_LIST))))
@@ -60,7 +61,7 @@ PC := $(B)/nlcontact.pc
 CMAKE := $(B)/nlcontact-config.cmake $(B)/nlcontact-config-version.cmake
 MAN := $(sort $(wildcard $(S)/man/*.3))
 
-.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist distcheck clean FORCE
+.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist distcheck abi-check abi-baseline abi-dump clean FORCE
 all: lib packing ## build the libraries and the packing program
 lib: $(STATIC) $(SHARED) ## build the static and the shared library
 
@@ -163,6 +164,22 @@ $(B)/tests/%: $(B)/tests/%.o $(TEST_COMMON) $(BENCH_COMMON) $(STATIC)
 check: lib packing $(B)/bench/accuracy $(FIGURES) $(BEDS) $(TESTS) ## build and run every test (needs what `make setup` installs)
 	@S='$(abspath $(S))' B='$(abspath $(B))' CC='$(CC)' CXX='$(CXX)' FC='$(FC)' MAKE='$(MAKE)' EMULATOR='$(EMULATOR)' \
 		PKG_CONFIG='$(PKG_CONFIG)' VERSION='$(VERSION)' sh $(S)/tests/run $(abspath $(TESTS) $(TEST_SCRIPTS))
+
+# ---- the ABI, recorded in tests/abi/x.y for each release x.y
+ABI := $(S)/tests/abi/$(basename $(VERSION))
+ABIDW_FLAGS := --headers-dir $(S)/include --no-corpus-path --no-comp-dir-path --no-show-locs --type-id-style hash \
+	--drop-private-types --drop-undefined-syms --exported-interfaces-only
+abi-check: lib ## compare the ABI with what is recorded of this release and of older ones; needs abidiff
+	@command -v abidiff >/dev/null || { echo 'abi-check needs abidiff, from abigail-tools'; exit 1; }
+	@S='$(abspath $(S))' B='$(abspath $(B))' CC='$(CC)' MAKE='$(MAKE)' EMULATOR='$(EMULATOR)' VERSION='$(VERSION)' sh $(S)/tests/test_abi.sh
+abi-baseline: ## record the ABI of this release anew; needs gcc on x86-64, python3 and abidw
+	@mkdir -p $(ABI)
+	python3 $(S)/tools/abi.py header $(S)/include/nlcontact.h > $(ABI)/nlcontact.h
+	python3 $(S)/tools/abi.py layout $(S)/include/nlcontact.h $(S)/lib/nlcontact.map > $(ABI)/layout
+	@$(MAKE) -s B=$(B)/abi CC=gcc CFLAGS='-O0 -g' LDFLAGS= abi-dump
+	cp $(B)/abi/libnlcontact.abi $(ABI)/
+abi-dump: $(SHARED)
+	abidw $(ABIDW_FLAGS) $(SHARED) > $(B)/libnlcontact.abi
 
 stress: $(B)/tests/test_stress ## the solver on its whole grid of scenes, with a table; a few minutes
 	@NLC_TEST_FULL=1 $(EMULATOR) $<

@@ -15,7 +15,7 @@ run_make() {
 
 # The targets that `make help` lists are those that are not files.
 $MAKE -s -C "$S" B="$tmp/none" help >"$tmp/help" || fail "make help fails"
-for target in all check examples stress demo bench accuracy figures setup install uninstall dist distcheck clean; do
+for target in all check examples stress demo bench accuracy figures setup install uninstall dist distcheck abi-check abi-baseline clean; do
     grep -q "^  make $target  *[a-z]" "$tmp/help" || fail "make help does not list $target"
 done
 phony=" $(sed -n 's/^\.PHONY: *//p' "$S/Makefile" | tr '\n' ' ') "
