@@ -61,7 +61,7 @@ PC := $(B)/nlcontact.pc
 CMAKE := $(B)/nlcontact-config.cmake $(B)/nlcontact-config-version.cmake
 MAN := $(sort $(wildcard $(S)/man/*.3))
 
-.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist distcheck abi-check abi-baseline abi-dump clean FORCE
+.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist distcheck clean FORCE
 all: lib packing ## build the libraries and the packing program
 lib: $(STATIC) $(SHARED) ## build the static and the shared library
 
@@ -166,12 +166,14 @@ check: lib packing $(B)/bench/accuracy $(FIGURES) $(BEDS) $(TESTS) ## build and 
 		PKG_CONFIG='$(PKG_CONFIG)' VERSION='$(VERSION)' sh $(S)/tests/run $(abspath $(TESTS) $(TEST_SCRIPTS))
 
 # ---- the ABI, recorded in tests/abi/x.y for each release x.y
+.PHONY: abi-check abi-baseline abi-dump
 ABI := $(S)/tests/abi/$(basename $(VERSION))
 ABIDW_FLAGS := --headers-dir $(S)/include --no-corpus-path --no-comp-dir-path --no-show-locs --type-id-style hash \
 	--drop-private-types --drop-undefined-syms --exported-interfaces-only
 abi-check: lib ## compare the ABI with what is recorded of this release and of older ones; needs abidiff
 	@command -v abidiff >/dev/null || { echo 'abi-check needs abidiff, from abigail-tools'; exit 1; }
-	@S='$(abspath $(S))' B='$(abspath $(B))' CC='$(CC)' MAKE='$(MAKE)' EMULATOR='$(EMULATOR)' VERSION='$(VERSION)' sh $(S)/tests/test_abi.sh
+	@S='$(abspath $(S))' B='$(abspath $(B))' CC='$(CC)' MAKE='$(MAKE)' EMULATOR='$(EMULATOR)' VERSION='$(VERSION)' \
+		sh $(S)/tests/test_abi.sh
 abi-baseline: ## record the ABI of this release anew; needs gcc on x86-64, python3 and abidw
 	@mkdir -p $(ABI)
 	python3 $(S)/tools/abi.py header $(S)/include/nlcontact.h > $(ABI)/nlcontact.h
@@ -188,7 +190,7 @@ setup: ## install what the tests need with the system's package manager
 	@sh $(S)/tests/setup
 
 # ---- installation
-install: lib $(PC) $(CMAKE) ## install header, Fortran module, libraries, man pages and what pkg-config and CMake need, below DESTDIR and PREFIX
+install: lib $(PC) $(CMAKE) ## install header, Fortran module, libraries, man pages, files for pkg-config and CMake
 	$(INSTALL) -d $(DESTDIR)$(includedir) $(DESTDIR)$(libdir) $(DESTDIR)$(pkgconfigdir) $(DESTDIR)$(cmakedir)
 	$(INSTALL) -d $(DESTDIR)$(mandir)/man3
 	$(INSTALL) -m 644 $(S)/include/nlcontact.h $(S)/include/nlcontact.f90 $(DESTDIR)$(includedir)/

@@ -19,10 +19,12 @@ skip() { skipped="$skipped; $1"; }
 # Nodes of the version script are NLCONTACT_x.y, oldest first, none of a release to come; a symbol is in one of them.
 sed -n 's/^NLCONTACT_\([0-9.]*\) {$/\1/p' "$S/lib/nlcontact.map" >"$tmp/nodes"
 [ -s "$tmp/nodes" ] || fail "no nodes found in the version script"
-{ cat "$tmp/nodes" && echo "$current"; } | sort -c -t. -k1,1n -k2,2n || fail "the nodes of the version script are not those of releases"
+{ cat "$tmp/nodes" && echo "$current"; } | sort -c -t. -k1,1n -k2,2n ||
+    fail "the nodes of the version script are not those of releases"
 sed -n 's/^ *\(nlc_[a-z0-9_]*\);$/\1/p' "$S/lib/nlcontact.map" | sort | uniq -d >"$tmp/twice"
 [ ! -s "$tmp/twice" ] || fail "symbols in two nodes:" $(cat "$tmp/twice")
-readelf -W --dyn-syms "$B/libnlcontact.so.$VERSION" | awk '$7 != "UND" && $7 != "ABS" { print $8 }' | sed -n 's/@@/ /p' | sort >"$tmp/symbols"
+shared=$B/libnlcontact.so.$VERSION
+readelf -W --dyn-syms "$shared" | awk '$7 != "UND" && $7 != "ABS" { print $8 }' | sed -n 's/@@/ /p' | sort >"$tmp/symbols"
 [ -s "$tmp/symbols" ] || fail "no symbols found in the shared library"
 
 # A recorded layout as static assertions for all models of data.  Of an older release a struct may have grown.
@@ -33,7 +35,10 @@ assertions() { # layout, comparison of sizes
         return "(sizeof(void *) == 8 ? " a[k] " : offsetof(struct probe, x) == 8 ? " b[k] " : " c[k] ")"
     }
     function demand(condition, text) { print "_Static_assert(" condition ", \"" text "\");" }
-    BEGIN { print "#include <nlcontact.h>\nstruct probe { char c; int64_t x; };" }
+    BEGIN {
+        print "#include <nlcontact.h>\nstruct probe { char c; int64_t x; };"
+        demand("sizeof(nlc_status) == 4", "nlc_status has another size")
+    }
     $1 == "struct" { demand("sizeof(" $2 ") " ($2 == "nlc_material" ? "==" : compare) " " pick(1), $2 " has another size") }
     $1 == "field" {
         type = $2; sub(/\..*/, "", type); name = $2; sub(/.*\./, "", name)
@@ -108,10 +113,11 @@ fi
 # may be gone (8).
 if ! command -v abidiff >/dev/null; then
     skip "debug information: no abidiff"
-elif ! readelf -h "$B/libnlcontact.so.$VERSION" | grep -q 'X86-64' || [ "$(getconf LONG_BIT)" != 64 ]; then
+elif ! readelf -h "$shared" | grep -q 'X86-64' || [ "$(getconf LONG_BIT)" != 64 ]; then
     skip "debug information: recorded for x86-64"
 else
-    $MAKE -s -C "$S" B="$tmp/build" CC="$CC" CFLAGS='-O0 -g' LDFLAGS= WARNINGS= abi-dump >"$tmp/log" 2>&1 || { cat "$tmp/log"; fail "no abi-dump"; }
+    $MAKE -s -C "$S" B="$tmp/build" CC="$CC" CFLAGS='-O0 -g' LDFLAGS= WARNINGS= abi-dump >"$tmp/log" 2>&1 ||
+        { cat "$tmp/log"; fail "make abi-dump fails"; }
     for recorded in "$abi"/*/libnlcontact.abi; do
         release=${recorded%/*} release=${release##*/} status=0
         abidiff --harmless "$recorded" "$tmp/build/libnlcontact.abi" >"$tmp/log" 2>&1 || status=$?

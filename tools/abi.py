@@ -62,7 +62,8 @@ def layout(header, version_script, cc='gcc'):
     rows = []
     for name, fields in structs(text):
         rows.append(('struct ' + name, 'sizeof(%s)' % name, None))
-        rows += [('field %s.%s' % (name, f), 'offsetof(%s, %s) + 1' % (name, f), 'sizeof ((%s *)0)->%s' % (name, f)) for f in fields]
+        for f in fields:
+            rows.append(('field %s.%s' % (name, f), 'offsetof(%s, %s) + 1' % (name, f), 'sizeof ((%s *)0)->%s' % (name, f)))
     expressions = [r[1] for r in rows] + [r[2] or '1' for r in rows]
     columns = [measure(header, expressions, cc, flags) for flags in MODELS]
     print('# made by tools/abi.py: 64 bits, 32 bits, i386; a field as offset+size')
