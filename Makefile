@@ -61,7 +61,7 @@ PC := $(B)/nlcontact.pc
 CMAKE := $(B)/nlcontact-config.cmake $(B)/nlcontact-config-version.cmake
 MAN := $(sort $(wildcard $(S)/man/*.3))
 
-.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist distcheck clean FORCE
+.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist deb distcheck clean FORCE
 all: lib packing ## build the libraries and the packing program
 lib: $(STATIC) $(SHARED) ## build the static and the shared library
 
@@ -180,6 +180,7 @@ abi-baseline: ## record the ABI of this release anew; needs gcc on x86-64, pytho
 	python3 $(S)/tools/abi.py layout $(S)/include/nlcontact.h $(S)/lib/nlcontact.map > $(ABI)/layout
 	@$(MAKE) -s B=$(B)/abi CC=gcc CFLAGS='-O0 -g' LDFLAGS= abi-dump
 	cp $(B)/abi/libnlcontact.abi $(ABI)/
+	python3 $(S)/tools/abi.py symbols $(S)/lib/nlcontact.map > $(S)/debian/libnlcontact0.symbols
 abi-dump: $(SHARED)
 	abidw $(ABIDW_FLAGS) $(SHARED) > $(B)/libnlcontact.abi
 
@@ -211,14 +212,29 @@ uninstall: ## remove what install put there
 	rmdir $(DESTDIR)$(cmakedir) 2>/dev/null || :
 
 DISTNAME := nlcontact-$(VERSION)
-DIST_FILES = Makefile README COPYING nlcontact.pc.in nlcontact-config.cmake.in nlcontact-config-version.cmake.in include lib tests \
-	bench man tools examples
+DIST_FILES = Makefile README COPYING CITATION.cff nlcontact.pc.in nlcontact-config.cmake.in nlcontact-config-version.cmake.in \
+	include lib tests bench man tools examples
+RELEASED := $(shell sed -n 's/^date-released: *//p' $(S)/CITATION.cff)
 dist: ## make a source archive, the same bytes every time
 	@mkdir -p $(B)
-	cd $(S) && tar --exclude=__pycache__ --sort=name --owner=0 --group=0 --numeric-owner --mode=u+rw,go=rX --mtime=@0 --format=gnu \
+	cd $(S) && tar --exclude=__pycache__ --sort=name --owner=0 --group=0 --numeric-owner --mode=u+rw,go=rX --mtime='$(RELEASED) UTC' --format=gnu \
 		--transform='s|^|$(DISTNAME)/|' -cf $(abspath $(B))/$(DISTNAME).tar $(DIST_FILES)
 	gzip -n -9 -f $(B)/$(DISTNAME).tar
 	@echo $(B)/$(DISTNAME).tar.gz
+
+# debian/ is not in the archive: it is what Debian adds.  The caller's variables are none of its business.
+DEB := $(B)/deb/$(DISTNAME)
+DEBIAN_FILES := changelog control copyright libnlcontact-dev.docs libnlcontact-dev.examples libnlcontact-dev.install \
+	libnlcontact0.install libnlcontact0.symbols rules source tests watch
+deb: dist ## make Debian packages, in build/deb; with DEB_BUILD_OPTIONS=nocheck without running the tests
+	rm -rf $(B)/deb
+	mkdir $(B)/deb
+	cp $(B)/$(DISTNAME).tar.gz $(B)/deb/$(subst -,_,$(DISTNAME)).orig.tar.gz
+	tar -C $(B)/deb -xf $(B)/$(DISTNAME).tar.gz
+	mkdir $(DEB)/debian
+	cp -r $(addprefix $(S)/debian/,$(DEBIAN_FILES)) $(DEB)/debian
+	cd $(DEB) && env -i PATH="$$PATH" HOME="$$HOME" DEB_BUILD_OPTIONS="$$DEB_BUILD_OPTIONS" dpkg-buildpackage -us -uc
+	rm -rf $(DEB)
 
 DISTCHECK := $(abspath $(B))/distcheck
 # CFLAGS and the like are handed on; installation goes to the folders that are the default.

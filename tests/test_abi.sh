@@ -99,6 +99,8 @@ again="make abi-baseline, and read what it changes"
 if command -v python3 >/dev/null; then
     python3 "$S/tools/abi.py" header "$S/include/nlcontact.h" | diff "$abi/$current/nlcontact.h" - >"$tmp/diff" ||
         { cat "$tmp/diff"; fail "the header has changed: $again"; }
+    [ ! -d "$S/debian" ] || python3 "$S/tools/abi.py" symbols "$S/lib/nlcontact.map" | diff "$S/debian/libnlcontact0.symbols" - ||
+        fail "Debian's list of symbols is out of date: $again"
     if [ "$($CC -dumpmachine | cut -d- -f1)" = x86_64 ] && [ $models -ge 3 ]; then
         python3 "$S/tools/abi.py" layout "$S/include/nlcontact.h" "$S/lib/nlcontact.map" "$CC" >"$tmp/layout"
         diff "$abi/$current/layout" "$tmp/layout" || fail "the layout has changed: $again"

@@ -15,7 +15,7 @@ run_make() {
 
 # The targets that `make help` lists are those that are not files.
 $MAKE -s -C "$S" B="$tmp/none" help >"$tmp/help" || fail "make help fails"
-for target in all check examples stress demo bench accuracy figures setup install uninstall dist distcheck abi-check abi-baseline clean; do
+for target in all check examples stress demo bench accuracy figures setup install uninstall dist deb distcheck abi-check abi-baseline clean; do
     grep -q "^  make $target  *[a-z]" "$tmp/help" || fail "make help does not list $target"
 done
 phony=" $(sed -n 's/^\.PHONY: *//p' "$S/Makefile" | tr '\n' ' ') "
@@ -23,6 +23,13 @@ for target in $(sed -n 's/^  make \([a-z-]*\) .*/\1/p' "$tmp/help"); do
     case $phony in *" $target "*) ;; *) fail "$target is not .PHONY: a file of that name would hide it" ;; esac
 done
 [ ! -e "$tmp/none" ] || fail "make help builds something"
+
+# Every place that names the version names the same one.  (debian/ is not in the archive.)
+names_version() { # file, pattern of what stands around it
+    [ "$(sed -n "s/$2/\\1/p" "$S/$1" | head -n 1)" = "$VERSION" ] || fail "$1 names another version than the header"
+}
+names_version CITATION.cff '^version: *\(.*\)'
+[ ! -d "$S/debian" ] || names_version debian/changelog '^nlcontact (\([0-9.]*\)-.*'
 
 # The archive, three times: under another umask, locale and time zone, and from an unpacked archive, owned and dated
 # otherwise.

@@ -81,7 +81,7 @@ def layout(header, version_script, cc='gcc'):
 
 
 def debian_symbols(version_script):
-    print('libnlcontact.so.0 libnlcontact0 #MINVER#')
+    print('libnlcontact.so.0 libnlcontact0 #MINVER#\n* Build-Depends-Package: libnlcontact-dev')
     lines = []
     for node, symbols in nodes(read(version_script)):
         release = node.split('_')[1]
