@@ -29,6 +29,8 @@ names_version() { # file, pattern of what stands around it
     [ "$(sed -n "s/$2/\\1/p" "$S/$1" | head -n 1)" = "$VERSION" ] || fail "$1 names another version than the header"
 }
 names_version CITATION.cff '^version: *\(.*\)'
+names_version packaging/package.py '^    version("\(.*\)").*'
+names_version packaging/nlcontact.eb "^version = '\(.*\)'"
 [ ! -d "$S/debian" ] || names_version debian/changelog '^nlcontact (\([0-9.]*\)-.*'
 
 # The archive, three times: under another umask, locale and time zone, and from an unpacked archive, owned and dated
