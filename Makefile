@@ -212,8 +212,8 @@ uninstall: ## remove what install put there
 	rmdir $(DESTDIR)$(cmakedir) 2>/dev/null || :
 
 DISTNAME := nlcontact-$(VERSION)
-DIST_FILES = Makefile README COPYING CITATION.cff nlcontact.pc.in nlcontact-config.cmake.in nlcontact-config-version.cmake.in \
-	include lib tests bench man tools examples packaging
+DIST_FILES = Makefile README NEWS CONTRIBUTING SECURITY COPYING CITATION.cff nlcontact.pc.in nlcontact-config.cmake.in \
+	nlcontact-config-version.cmake.in include lib tests bench man tools examples packaging
 RELEASED := $(shell sed -n 's/^date-released: *//p' $(S)/CITATION.cff)
 dist: ## make a source archive, the same bytes every time
 	@mkdir -p $(B)

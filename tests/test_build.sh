@@ -29,6 +29,7 @@ names_version() { # file, pattern of what stands around it
     [ "$(sed -n "s/$2/\\1/p" "$S/$1" | head -n 1)" = "$VERSION" ] || fail "$1 names another version than the header"
 }
 names_version CITATION.cff '^version: *\(.*\)'
+names_version NEWS '^\([0-9][0-9.]*\) (.*'
 names_version packaging/package.py '^    version("\(.*\)").*'
 names_version packaging/nlcontact.eb "^version = '\(.*\)'"
 [ ! -d "$S/debian" ] || names_version debian/changelog '^nlcontact (\([0-9.]*\)-.*'
@@ -50,7 +51,7 @@ for folder in lib man tests; do
     gzip -dc "$tmp/1/$archive" | tar -tf - | grep "/$folder/" | LC_ALL=C sort -c ||
         fail "the archive is in the order of the disk"
 done
-for file in Makefile README COPYING nlcontact.pc.in nlcontact-config.cmake.in nlcontact-config-version.cmake.in include/nlcontact.h lib/nlcontact.map man/nlcontact.3 tests/run; do
+for file in Makefile README NEWS CONTRIBUTING SECURITY COPYING CITATION.cff nlcontact.pc.in nlcontact-config.cmake.in nlcontact-config-version.cmake.in include/nlcontact.h lib/nlcontact.map man/nlcontact.3 tests/run; do
     [ -s "$source/$file" ] || fail "the archive has no $file"
 done
 
