@@ -59,7 +59,7 @@ SONAME := libnlcontact.so.$(SO_MAJOR)
 SHARED := $(B)/libnlcontact.so.$(VERSION)
 PC := $(B)/nlcontact.pc
 CMAKE := $(B)/nlcontact-config.cmake $(B)/nlcontact-config-version.cmake
-MAN := $(sort $(wildcard $(S)/man/*.3))
+MAN := $(sort $(wildcard $(S)/man/*.[37]))
 
 .PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist deb distcheck clean FORCE
 all: lib packing ## build the libraries and the packing program
@@ -193,7 +193,7 @@ setup: ## install what the tests need with the system's package manager
 # ---- installation
 install: lib $(PC) $(CMAKE) ## install header, Fortran module, libraries, man pages, files for pkg-config and CMake
 	$(INSTALL) -d $(DESTDIR)$(includedir) $(DESTDIR)$(libdir) $(DESTDIR)$(pkgconfigdir) $(DESTDIR)$(cmakedir)
-	$(INSTALL) -d $(DESTDIR)$(mandir)/man3
+	$(INSTALL) -d $(DESTDIR)$(mandir)/man3 $(DESTDIR)$(mandir)/man7
 	$(INSTALL) -m 644 $(S)/include/nlcontact.h $(S)/include/nlcontact.f90 $(DESTDIR)$(includedir)/
 	$(INSTALL) -m 644 $(STATIC) $(DESTDIR)$(libdir)/
 	$(INSTALL) -m 755 $(SHARED) $(DESTDIR)$(libdir)/
@@ -201,14 +201,15 @@ install: lib $(PC) $(CMAKE) ## install header, Fortran module, libraries, man pa
 	ln -sf $(SONAME) $(DESTDIR)$(libdir)/libnlcontact.so
 	$(INSTALL) -m 644 $(PC) $(DESTDIR)$(pkgconfigdir)/
 	$(INSTALL) -m 644 $(CMAKE) $(DESTDIR)$(cmakedir)/
-	$(INSTALL) -m 644 $(MAN) $(DESTDIR)$(mandir)/man3/
+	$(INSTALL) -m 644 $(filter %.3,$(MAN)) $(DESTDIR)$(mandir)/man3/
+	$(INSTALL) -m 644 $(filter %.7,$(MAN)) $(DESTDIR)$(mandir)/man7/
 
 # What install makes, file by file; of the folders, the one that is nobody else's.
 uninstall: ## remove what install put there
 	rm -f $(addprefix $(DESTDIR)$(includedir)/,nlcontact.h nlcontact.f90)
 	rm -f $(addprefix $(DESTDIR)$(libdir)/,$(notdir $(STATIC) $(SHARED)) $(SONAME) libnlcontact.so)
 	rm -f $(DESTDIR)$(pkgconfigdir)/nlcontact.pc $(addprefix $(DESTDIR)$(cmakedir)/,$(notdir $(CMAKE)))
-	rm -f $(foreach m,$(notdir $(MAN)),$(DESTDIR)$(mandir)/man3/$(m))
+	rm -f $(foreach m,$(notdir $(MAN)),$(DESTDIR)$(mandir)/man$(subst .,,$(suffix $(m)))/$(m))
 	rmdir $(DESTDIR)$(cmakedir) 2>/dev/null || :
 
 DISTNAME := nlcontact-$(VERSION)

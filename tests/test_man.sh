@@ -9,7 +9,7 @@ trap 'exit 1' HUP INT TERM
 cd "$S/man"
 
 command -v mandoc >/dev/null || fail "mandoc is missing: run make setup"
-mandoc -Tlint -Wall ./*.3 || fail "mandoc has complaints"
+mandoc -Tlint -Wall ./*.[37] || fail "mandoc has complaints"
 
 # What a page repeats of the header, as lines "function fact": the prototype, the statuses returned, the worst error.
 # Comments over a function in the header and running text in a page are both searched in $text.
@@ -63,10 +63,13 @@ while read -r status; do
 done <"$tmp/statuses"
 
 # Examples: the literal displays of EXAMPLES, without the escapes of roff.
-pages=0 examples=0
-for page in *.3; do
+pages=0 examples=0 skipped=''
+if printf '#include <omp.h>\nint main(void) { return omp_get_max_threads() < 1; }\n' >"$tmp/omp.c" &&
+    $CC ${CFLAGS-} -fopenmp -o "$tmp/omp" "$tmp/omp.c" ${LDFLAGS-} 2>/dev/null; then openmp=-fopenmp
+else openmp=-Wno-unknown-pragmas skipped=" (without threads)"; fi
+for page in *.[37]; do
     pages=$((pages + 1))
-    awk -v to="$tmp/${page%.3}" -v quote="'" '
+    awk -v to="$tmp/${page%.*}" -v quote="'" '
     /^\.Sh / { here = /EXAMPLES/ }
     /^\.Ed/ { show = 0 }
     show {
@@ -75,13 +78,14 @@ for page in *.3; do
         print > (to "." n ".c")
     }
     here && /^\.Bd -literal/ { show = 1; n++ }' "$page"
-    [ -f "$tmp/${page%.3}.1.c" ] || fail "$page has no example"
-    for source in "$tmp/${page%.3}".*.c; do
-        program=${source%.c}
-        $CC ${CFLAGS-} -std=c99 -Wall -Wextra -Werror -I"$S/include" -o "$program" "$source" "$B/libnlcontact.a" \
+    [ -f "$tmp/${page%.*}.1.c" ] || fail "$page has no example"
+    for source in "$tmp/${page%.*}".*.c; do
+        program=${source%.c} threads=''
+        ! grep -q '^#pragma omp' "$source" || threads=$openmp
+        $CC ${CFLAGS-} $threads -std=c99 -Wall -Wextra -Werror -I"$S/include" -o "$program" "$source" "$B/libnlcontact.a" \
             ${LDFLAGS-} -lm || fail "an example of $page does not compile"
         ${EMULATOR-} "$program" >"$program.out" 2>&1 || { cat "$program.out"; fail "an example of $page fails"; }
         examples=$((examples + 1))
     done
 done
-echo "test_man: $pages pages, $examples examples: ok"
+echo "test_man: $pages pages, $examples examples: ok$skipped"
