@@ -61,7 +61,7 @@ PC := $(B)/nlcontact.pc
 CMAKE := $(B)/nlcontact-config.cmake $(B)/nlcontact-config-version.cmake
 MAN := $(sort $(wildcard $(S)/man/*.[37]))
 
-.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist deb distcheck clean FORCE
+.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist deb distcheck clean hydrogel hydrogel-runs FORCE
 all: lib packing ## build the libraries and the packing program
 lib: $(STATIC) $(SHARED) ## build the static and the shared library
 
@@ -120,15 +120,33 @@ accuracy: $(B)/bench/accuracy ## the models' forces beside exact elasticity and 
 	@$(B)/bench/accuracy --csv $(B)/accuracy.csv --svg $(B)/accuracy.svg --packing $(PACKING) --cost $(B)/accuracy_cost.svg \
 		--surface $(S)/bench/data/reference/hertz_pressure.csv $(REFERENCES)
 
-# ---- the figures of [GC]
+# ---- the runs that [MC]'s figures are drawn from; `make hydrogel-runs` computes them anew
+HYDROGEL := $(B)/bench/hydrogel/compress $(B)/bench/hydrogel/mc_metrics
+HYDROGEL_RUNS := $(B)/bench/hydrogel/run.o $(B)/bench/hydrogel/metrics.o
+$(B)/bench/hydrogel/compress: $(B)/bench/hydrogel/bed.o $(B)/bench/hydrogel/measure.o
+$(HYDROGEL): %: %.o $(HYDROGEL_RUNS) $(BENCH_COMMON) $(STATIC)
+	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) $(STATIC) $(LIBS)
+hydrogel: $(HYDROGEL) ## bench/hydrogel: compression of a packing by several models, and [MC]'s measures of two runs
+RUNS := $(B)/hydrogel
+RUN = @mkdir -p $(@D); cd $(@D) && $(abspath $<) $(1) --output $(@F) $(abspath $(S))/bench/data/c_hydrogel514_rest.csv
+$(RUNS)/mc-sphere.csv: $(B)/bench/hydrogel/compress $(RUNS)/sphere.csv
+	$(call RUN,--fit sphere.csv --prefactor 0.84)
+$(RUNS)/mc-paper.csv: $(B)/bench/hydrogel/compress $(RUNS)/hertz.csv
+	$(call RUN,--fit hertz.csv --ratio 2.3256 --prefactor 1.525)
+$(RUNS)/%.csv: $(B)/bench/hydrogel/compress
+	$(call RUN,--model $*)
+RUN_NAMES := sphere hertz mc-paper mc-sphere half-space point-force gonzalez-cuitino
+hydrogel-runs: $(RUN_NAMES:%=$(RUNS)/%.csv) ## compute [MC]'s runs anew, in build/hydrogel; some minutes with -j2
+
+# ---- the figures of [GC] and [MC]
 FIGURES := $(B)/bench/figures/figures
 FIGURES_OBJ := $(patsubst $(S)/%.c,$(B)/%.o,$(sort $(wildcard $(S)/bench/figures/*.c)))
-$(FIGURES): $(FIGURES_OBJ) $(patsubst %,$(B)/bench/%.o,line_chart reference_table packing_io timing) $(STATIC)
+$(FIGURES): $(FIGURES_OBJ) $(HYDROGEL_RUNS) $(patsubst %,$(B)/bench/%.o,line_chart reference_table packing_io timing) $(STATIC)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
 BEDS := $(B)/bench/figures/bed/compact
 $(BEDS): $(patsubst $(S)/%.c,$(B)/%.o,$(sort $(wildcard $(S)/bench/figures/bed/*.c))) $(STATIC)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
-figures: $(FIGURES) $(BEDS) ## the figures of Gonzalez and Cuitino (2012) as pictures and data, in build/figures; four minutes
+figures: $(FIGURES) $(BEDS) ## the figures of [GC] and [MC] as pictures and data, in build/figures; four minutes
 	@mkdir -p $(B)/figures
 	@$(BEDS) $(B)/figures
 	@$(FIGURES) $(S)/bench $(B)/figures $(B)/figures
@@ -161,7 +179,7 @@ $(B)/tests/%.o: $(S)/tests/%.c
 $(B)/tests/%: $(B)/tests/%.o $(TEST_COMMON) $(BENCH_COMMON) $(STATIC)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK_LIBS) $(LIBS)
 
-check: lib packing $(B)/bench/accuracy $(FIGURES) $(BEDS) $(TESTS) ## build and run every test (needs what `make setup` installs)
+check: lib packing $(B)/bench/accuracy $(FIGURES) $(BEDS) $(HYDROGEL) $(TESTS) ## build and run every test (needs what `make setup` installs)
 	@S='$(abspath $(S))' B='$(abspath $(B))' CC='$(CC)' CXX='$(CXX)' FC='$(FC)' MAKE='$(MAKE)' EMULATOR='$(EMULATOR)' \
 		PKG_CONFIG='$(PKG_CONFIG)' VERSION='$(VERSION)' sh $(S)/tests/run $(abspath $(TESTS) $(TEST_SCRIPTS))
 
@@ -254,4 +272,4 @@ distcheck: dist ## from the archive, unpacked elsewhere and write-protected: che
 clean: ## remove everything that was built
 	rm -rf $(B)
 
--include $(wildcard $(B)/lib/*.d $(B)/lib/*/*.d $(B)/bench/*.d $(B)/bench/figures/*.d $(B)/bench/figures/bed/*.d $(B)/tests/*.d)
+-include $(wildcard $(B)/lib/*.d $(B)/lib/*/*.d $(B)/bench/*.d $(B)/bench/figures/*.d $(B)/bench/figures/bed/*.d $(B)/bench/hydrogel/*.d $(B)/tests/*.d)
