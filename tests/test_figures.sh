@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-2-Clause
-# bench/figures: the numbers that [GC] states, and others by closed forms and by solutions of its equations in awk that share
-# nothing with the library.
+# bench/figures: the numbers that [GC] states, some of [MC], and others by closed forms and by solutions of [GC]'s equations in
+# awk that share nothing with the library.
 set -eu
 export LC_ALL=C
 fail() { echo "test_figures: $*" >&2; exit 1; }
@@ -160,6 +160,19 @@ for x in 0.01 0.1; do # worst found 0.07 %, lateral 0.12 %, preloaded 0.16 %, al
     compare fig14_preloaded_forces axial $x 0.002
     compare fig14_preloaded_forces lateral $x 0.002
 done
+# Those of [MC] hold what the runs do: test_hydrogel.sh says more of these.
+for name in mc_03_top_force mc_04_force_distribution mc_05_coordination mc_06_scaling_law; do
+    tail -n 1 "$tmp/$name.svg" | grep -q '^</svg>$' || fail "$name.svg is not a whole picture"
+    ! grep -qiE 'nan|inf[^o]' "$tmp/$name.svg" || fail "$name.svg shows numbers that are none"
+    [ "$(wc -l <"$tmp/$name.csv")" -gt 100 ] || fail "$name.csv has hardly any points"
+done
+for model in hertz mc-paper sphere; do # [MC]: half the largest force at 18 mm; F ~ Z phi b f
+    mean=$(awk -F, '$1 > 1 && $3 == 0.134 { sum += $4; n++ } END { print sum / n }' "$S/bench/hydrogel/$model.csv")
+    near "$(number mc_03 "$model: top force [N]")" "$mean" 1e-4 "$model: top force"
+    near "$(number mc_04 "$model: top force over the largest")" 0.5 0.11 "$model: top force at 18 mm"
+    near "$(number mc_06 "$model: farthest from that / largest F")" 0 0.15 "$model: scaling law"
+done
+
 # Fig. 2: from 30 degrees on; 0.05 is 2 % of the displacement at the pole
 for model in 'Case I' 'Case II'; do
     near "$(number fig02 "$model: worst difference from 30 degrees on")" 0 0.05 "surface, $model"

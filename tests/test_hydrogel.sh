@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-2-Clause
-# bench/hydrogel: the measures of [MC] IV on data with known ones, and a part of the committed runs anew.
+# bench/hydrogel: the measures of [MC] IV on data with known ones, what the committed runs say of [MC]'s Table I, and a part of
+# these runs anew.
 set -eu
 export LC_ALL=C
 fail() { echo "test_hydrogel: $*" >&2; exit 1; }
@@ -115,6 +116,29 @@ usage compress --model none file
 usage compress --levels 1.5 file
 metrics --help | grep -q '^  R_top' || fail "no help"
 
+# ---- the committed runs
+of() { measure "$3" --from 2 --resolution 0.004 "$runs/$1.csv" "$runs/$2.csv"; } # RUN REFERENCE COLUMN
+models='hertz point-force gonzalez-cuitino half-space'
+for run in $models mc-paper sphere; do
+    measure $R_top-$levels --threshold 0 "$runs/$run.csv" "$runs/$run.csv" | # err_Z 2.5e-16 found, from means over cycles
+        awk -F, '{ exit !($1 == 1 && $2 < 1e-14 && $3 < 1e-14 && $4 == 0 && $5 == 0 && $6 == 50) }' ||
+        fail "$run is not equal to itself, or has other levels"
+done
+# MC-DEM's prefactor makes R_top what it was fitted to: that of the exact sphere, and 1/0.43 of Hertz
+near "$(of mc-sphere sphere $R_top)" 1 0.02 'R_top of MC-DEM fitted to the exact sphere'
+near "$(of hertz mc-paper $R_top)" 0.43 0.009 'R_top of Hertz beside MC-DEM'
+# with that in the place of the experiment the columns of Table I have the paper's order
+for column in $R_top $err_f $threshold $bhat; do
+    last=
+    for run in $models; do
+        this=$(of "$run" mc-paper "$column")
+        case $column in "$err_f" | "$bhat") this=-$this ;; esac
+        [ -z "$last" ] || less "$last" "$this" "Table I, column $column: $run after the model before"
+        last=$this
+    done
+done
+near "$(of mc-sphere sphere $threshold)" 0.004 0.0002 'threshold that the resolution of the reference leads to'
+
 # ---- a part of them anew.  The first loading is reproducible: a slip length changed by 1e-7 of itself moved no digit of the top
 # force; 2 % is for other solvers, whose forces are within 1e-4.
 for run in hertz gonzalez-cuitino; do
@@ -145,4 +169,4 @@ compress "$tmp/case_1" $quick
 compress "$tmp/fitted" $quick --fit "$tmp/case_1" --prefactor 0.5 --from 1 --within 0.003
 near "$(measure $R_top "$tmp/fitted" "$tmp/case_1")" 1 0.003 'R_top after the fit'
 near "$(sed -n 's/^# half-space prefactor \([0-9.]*\),.*/\1/p' "$tmp/fitted")" 0.98 0.03 'prefactor'
-echo "test_hydrogel: measures of known data, R_top = 1 after the fit, a part of the runs anew: ok"
+echo "test_hydrogel: measures of known data, the order of [MC]'s Table I, R_top = 1 after the fit, a part of the runs anew: ok"

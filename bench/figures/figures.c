@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
-/* figures.c - writes the figures of [GC]: a picture and its data for each, and numbers.csv; prints what the paper has, too. */
+/* figures.c - writes the figures of [GC] and [MC]: a picture and its data for each, and numbers.csv; prints what the paper has, too. */
 #include "figures.h"
 
 #include <errno.h>
@@ -28,6 +28,10 @@ static figure all[] = {
     {.name = "fig17_bcc_die", .draw = die},
     {.name = "fig18_bed", .draw = bed_pictures},
     {.name = "fig19_bed_loads", .draw = bed_loads},
+    {.name = "mc_03_top_force", .draw = top_force},
+    {.name = "mc_04_force_distribution", .draw = force_distribution},
+    {.name = "mc_05_coordination", .draw = coordination},
+    {.name = "mc_06_scaling_law", .draw = scaling_law},
 };
 enum { FIGURES = sizeof all / sizeof all[0] };
 
@@ -48,7 +52,7 @@ void tell(const figure *f, const char *what, double value, double paper)
         fprintf(f->numbers, "%g", paper);
         printf("  %-44s ", what);
         printf(isfinite(value) ? "%7.4f" : "   none", value);
-        printf("  [GC] %g\n", paper);
+        printf("  [%s] %g\n", f->name[0] == 'm' ? "MC" : "GC", paper);
     }
     fputc('\n', f->numbers);
 }

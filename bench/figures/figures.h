@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
- * figures.h - the figures of Gonzalez and Cuitino (2012), [GC].  README says what each of them shows.
+ * figures.h - the figures of Gonzalez and Cuitino (2012), [GC], and of [MC].  README says what each of them shows.
  */
 #ifndef NLC_FIGURES_FIGURES_H
 #define NLC_FIGURES_FIGURES_H
@@ -41,6 +41,12 @@ bool bed_loads(figure *f);        /* Fig. 19 */
 bool fail_figure(const figure *f, const char *text);
 FILE *figure_open(const figure *f, const char *suffix);
 bool figure_close(const figure *f, FILE *out);
+
+/* Those of Brodu, Dijksman and Behringer (2015), [MC], from the runs in bench/hydrogel. */
+bool top_force(figure *f);          /* Fig. 3, and Table I */
+bool force_distribution(figure *f); /* Fig. 4 */
+bool coordination(figure *f);       /* Fig. 5 */
+bool scaling_law(figure *f);        /* Fig. 6 */
 
 /* A line of numbers.csv: a result, NaN if there is none, and the paper's number, NaN where it has none. */
 void tell(const figure *f, const char *what, double value, double paper);
