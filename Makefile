@@ -98,7 +98,8 @@ $(B)/%.cmake: $(S)/%.cmake.in FORCE
 
 # ---- programs on a packing, and on single spheres
 BENCH_SRC := $(sort $(wildcard $(S)/bench/*.c))
-BENCH_MAIN := $(filter %/packing.c %/bench.c %/steps.c %/roofline.c %/accuracy.c,$(BENCH_SRC))
+BENCH_MAIN := $(filter %/packing.c %/bench.c %/steps.c %/roofline.c %/accuracy.c \
+	%/functions.c %/tradeoff.c %/scale.c %/instructions.c,$(BENCH_SRC))
 BENCH_COMMON := $(patsubst $(S)/%.c,$(B)/%.o,$(filter-out $(BENCH_MAIN),$(BENCH_SRC)))
 
 $(B)/bench/%.o: $(S)/bench/%.c
