@@ -11,6 +11,9 @@
 /* Seconds of a clock that never goes back.  Only differences mean something. */
 double timing_seconds(void);
 
+/* Seconds that the processor has worked for this thread: other programs lengthen them only by what they take of caches. */
+double timing_processor_seconds(void);
+
 /* Order statistics of a sample. */
 typedef struct timing_spread {
     int count;
