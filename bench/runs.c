@@ -17,10 +17,12 @@ static double time_calls(const timed_call *c)
 /* Doubled until a run lasts long enough; warms the caches, too. */
 static void choose_repeat(timed_call *c, double run_time)
 {
+    const double start = timing_processor_seconds();
     c->repeat = 1;
     c->status = c->call(c->context);
     if (c->status < 0) fprintf(stderr, "%s is not measured: %s\n", c->key, nlc_strerror(c->status));
-    while (c->status >= 0 && time_calls(c) * (double)c->repeat < 1e9 * run_time && c->repeat < INT32_MAX) c->repeat *= 2;
+    if (c->status < 0 || timing_processor_seconds() - start > 10 * run_time) return;
+    while (time_calls(c) * (double)c->repeat < 1e9 * run_time && c->repeat < INT32_MAX) c->repeat *= 2;
 }
 
 void runs_measure(timed_call *calls, int count, const runs_plan *plan)

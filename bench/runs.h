@@ -32,7 +32,7 @@ typedef struct runs_plan {
 /* What a call costs.  Calls that fail are left out, with a message on stderr. */
 void runs_measure(timed_call *calls, int count, const runs_plan *plan);
 
-/* Rows of a table; csv may be NULL.  Samples are sorted.  name, particles and contacts of the packing: "-", 0 and 0 without one. */
+/* Rows of a table; csv may be NULL.  Samples are sorted.  name ... contacts: of the packing; "-", 0 and 0 without one. */
 void runs_print_head(FILE *out);
 void runs_print(FILE *out, FILE *csv, const char *name, int64_t particles, int64_t contacts, timed_call *calls, int count,
                 const runs_plan *plan);
