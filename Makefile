@@ -61,7 +61,7 @@ PC := $(B)/nlcontact.pc
 CMAKE := $(B)/nlcontact-config.cmake $(B)/nlcontact-config-version.cmake
 MAN := $(sort $(wildcard $(S)/man/*.[37]))
 
-.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist deb distcheck clean hydrogel hydrogel-runs FORCE
+.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist deb distcheck clean hydrogel hydrogel-runs bench-large plots setup-plots FORCE
 all: lib packing ## build the libraries and the packing program
 lib: $(STATIC) $(SHARED) ## build the static and the shared library
 
@@ -112,10 +112,29 @@ packing: $(B)/bench/packing ## build bench/packing, the same for a packing of yo
 demo: $(B)/bench/packing ## a real packing: forces with and without the coupling, a table, a picture, a ParaView file
 	@$(B)/bench/packing --svg $(B)/demo.svg --vtk $(B)/demo.vtk $(S)/bench/data/b_die125_rd0.80.csv
 PACKING ?= $(S)/bench/data/a_mono1000_periodic.csv
-bench: $(B)/bench/bench $(B)/bench/roofline $(B)/bench/steps ## time the library against Algorithm 1 as printed; PACKING=file for a packing of your own
+RESULTS ?= $(B)/results
+TRADEOFF_PACKINGS = $(sort $(S)/bench/data/b_die125_rd0.80.csv $(S)/bench/data/a_mono1000_periodic.csv \
+	$(S)/bench/data/c_hydrogel514_strain13.csv $(PACKING))
+bench: $(addprefix $(B)/bench/,bench roofline steps functions tradeoff scale) ## time the library against Algorithm 1 as printed; PACKING=file for a packing of your own
+	@mkdir -p $(RESULTS)
 	@$(B)/bench/bench $(PACKING)
+	@$(B)/bench/bench --csv $(PACKING) >$(RESULTS)/bench.csv
 	@$(B)/bench/roofline $(PACKING)
 	@$(B)/bench/steps $(PACKING)
+	@$(B)/bench/functions --csv $(RESULTS)/functions.csv $(PACKING)
+	@$(B)/bench/tradeoff --csv $(RESULTS)/tradeoff.csv $(TRADEOFF_PACKINGS)
+	@$(B)/bench/scale --csv $(RESULTS)/scale.csv
+bench-large: $(B)/bench/tradeoff $(B)/bench/scale ## the same on ten million contacts; about 15 minutes and 8 GB
+	@mkdir -p $(RESULTS)
+	@$(B)/bench/scale --csv $(RESULTS)/scale_large.csv 1.1e7
+	@$(B)/bench/tradeoff --csv $(RESULTS)/tradeoff_large.csv lattice:75
+PLOTS ?= $(B)/plots
+plots: ## pictures of what make bench and bench-large have found, in build/plots (needs gnuplot: make setup-plots)
+	@command -v gnuplot >/dev/null || { echo 'no gnuplot: make setup-plots'; exit 1; }
+	@[ -e $(RESULTS)/tradeoff.csv ] && [ -e $(RESULTS)/scale.csv ] || { echo 'nothing in $(RESULTS): make bench'; exit 1; }
+	@mkdir -p $(PLOTS)
+	@for p in tradeoff scale; do gnuplot -e "folder='$(S)/bench/plots'; results='$(RESULTS)'; out='$(PLOTS)'" \
+		$(S)/bench/plots/$$p.gp && echo $(PLOTS)/$$p.png || exit 1; done
 REFERENCES = $(filter-out %/hertz_pressure.csv,$(foreach d,reference fe,$(sort $(wildcard $(S)/bench/data/$(d)/*.csv))))
 accuracy: $(B)/bench/accuracy ## the models' forces beside exact elasticity and finite elements, and their cost: tables, charts
 	@$(B)/bench/accuracy --csv $(B)/accuracy.csv --svg $(B)/accuracy.svg --packing $(PACKING) --cost $(B)/accuracy_cost.svg \
@@ -180,7 +199,7 @@ $(B)/tests/%.o: $(S)/tests/%.c
 $(B)/tests/%: $(B)/tests/%.o $(TEST_COMMON) $(BENCH_COMMON) $(STATIC)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK_LIBS) $(LIBS)
 
-check: lib packing $(B)/bench/accuracy $(FIGURES) $(BEDS) $(HYDROGEL) $(TESTS) ## build and run every test (needs what `make setup` installs)
+check: lib packing $(FIGURES) $(BEDS) $(HYDROGEL) $(TESTS) $(addprefix $(B)/bench/,accuracy functions tradeoff scale) ## build and run every test (needs what `make setup` installs)
 	@S='$(abspath $(S))' B='$(abspath $(B))' CC='$(CC)' CXX='$(CXX)' FC='$(FC)' MAKE='$(MAKE)' EMULATOR='$(EMULATOR)' \
 		PKG_CONFIG='$(PKG_CONFIG)' VERSION='$(VERSION)' sh $(S)/tests/run $(abspath $(TESTS) $(TEST_SCRIPTS))
 
@@ -208,6 +227,8 @@ stress: $(B)/tests/test_stress ## the solver on its whole grid of scenes, with a
 
 setup: ## install what the tests need with the system's package manager
 	@sh $(S)/tests/setup
+setup-plots: ## install gnuplot, for make plots
+	@sh $(S)/tests/setup plots
 
 # ---- installation
 install: lib $(PC) $(CMAKE) ## install header, Fortran module, libraries, man pages, files for pkg-config and CMake

@@ -28,7 +28,7 @@ static int run(const char *packing_name, FILE *csv, const runs_plan *plan)
     const char *name;
     int64_t particles, contacts;
     functions_add_scalar(&numbers);
-    function_scene *scene = functions_scene(&network, packing_name, error, sizeof error);
+    function_scene *scene = functions_scene(&network, packing_name, NLC_SIMD_BEST, error, sizeof error);
     if (!scene) return fail("", error);
     functions_scene_size(scene, &name, &particles, &contacts);
     runs_measure(numbers.calls, numbers.count, plan);

@@ -24,6 +24,7 @@ struct function_scene {
     neighbours n;
     nlc_particles particles;
     size_t memory_size;
+    int32_t simd;
     int networks;
     variant variants[NETWORKS];  /* the first has the default options */
     double *force, *nonlocal;    /* [contacts] the solution */
@@ -261,6 +262,7 @@ static nlc_status add_network(function_scene *s, const nlc_options *options)
     variant *v = &s->variants[s->networks++];
     *v = (variant){.scene = s, .options = *options, .memory = get(s, (int64_t)s->memory_size, 1)};
     v->options.struct_size = sizeof v->options;
+    if (v->options.simd == NLC_SIMD_BEST) v->options.simd = s->simd;
     return v->memory ? build(v) : NLC_ERROR_MEMORY_SIZE;
 }
 
@@ -280,7 +282,7 @@ static nlc_status add_sweeps(function_scene *s, function_list *list)
     };
     char key[RUNS_KEY];
     nlc_status status = NLC_OK;
-    for (size_t k = 0; k < sizeof variants / sizeof *variants && status >= 0; k++) {
+    for (size_t k = 0; k < sizeof variants / sizeof *variants && status >= 0 && s->simd == NLC_SIMD_BEST; k++) {
         snprintf(key, sizeof key, "nlc_sweep up to %s", variants[k].name);
         status = add_network(s, &(nlc_options){.simd = variants[k].simd});
         functions_add(list, key, "contact", (double)s->n.count, run_sweep, &s->variants[s->networks - 1]);
@@ -345,13 +347,14 @@ static const char *prepare(function_scene *s, function_list *list)
     return status < 0 ? nlc_strerror(status) : NULL;
 }
 
-function_scene *functions_scene(function_list *list, const char *name, char *error, size_t error_size)
+function_scene *functions_scene(function_list *list, const char *name, int32_t simd, char *error, size_t error_size)
 {
     function_scene *s = calloc(1, sizeof *s);
     if (!s) {
         snprintf(error, error_size, "out of memory");
         return NULL;
     }
+    s->simd = simd;
     if (packing_open(&s->p, &s->n, name, NEIGHBOURS_REACH, error, error_size) == 0) {
         const char *reason = prepare(s, list);
         if (!reason) return s;
