@@ -61,7 +61,7 @@ PC := $(B)/nlcontact.pc
 CMAKE := $(B)/nlcontact-config.cmake $(B)/nlcontact-config-version.cmake
 MAN := $(sort $(wildcard $(S)/man/*.[37]))
 
-.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist deb distcheck clean hydrogel hydrogel-runs bench-large plots setup-plots FORCE
+.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist deb distcheck clean hydrogel hydrogel-runs bench-large plots setup-plots record-instructions FORCE
 all: lib packing ## build the libraries and the packing program
 lib: $(STATIC) $(SHARED) ## build the static and the shared library
 
@@ -135,6 +135,8 @@ plots: ## pictures of what make bench and bench-large have found, in build/plots
 	@mkdir -p $(PLOTS)
 	@for p in tradeoff scale; do gnuplot -e "folder='$(S)/bench/plots'; results='$(RESULTS)'; out='$(PLOTS)'" \
 		$(S)/bench/plots/$$p.gp && echo $(PLOTS)/$$p.png || exit 1; done
+record-instructions: $(B)/bench/instructions ## count the instructions of every function anew, for the test that compares them (valgrind)
+	@sh $(S)/bench/count_instructions $(STATIC) $< >$(B)/instructions.csv && mv $(B)/instructions.csv $(S)/tests/instructions.csv
 REFERENCES = $(filter-out %/hertz_pressure.csv,$(foreach d,reference fe,$(sort $(wildcard $(S)/bench/data/$(d)/*.csv))))
 accuracy: $(B)/bench/accuracy ## the models' forces beside exact elasticity and finite elements, and their cost: tables, charts
 	@$(B)/bench/accuracy --csv $(B)/accuracy.csv --svg $(B)/accuracy.svg --packing $(PACKING) --cost $(B)/accuracy_cost.svg \
@@ -199,7 +201,7 @@ $(B)/tests/%.o: $(S)/tests/%.c
 $(B)/tests/%: $(B)/tests/%.o $(TEST_COMMON) $(BENCH_COMMON) $(STATIC)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK_LIBS) $(LIBS)
 
-check: lib packing $(FIGURES) $(BEDS) $(HYDROGEL) $(TESTS) $(addprefix $(B)/bench/,accuracy functions tradeoff scale) ## build and run every test (needs what `make setup` installs)
+check: lib packing $(FIGURES) $(BEDS) $(HYDROGEL) $(TESTS) $(addprefix $(B)/bench/,accuracy functions tradeoff scale) scale instructions) ## build and run every test (needs what `make setup` installs)
 	@S='$(abspath $(S))' B='$(abspath $(B))' CC='$(CC)' CXX='$(CXX)' FC='$(FC)' MAKE='$(MAKE)' EMULATOR='$(EMULATOR)' \
 		PKG_CONFIG='$(PKG_CONFIG)' VERSION='$(VERSION)' sh $(S)/tests/run $(abspath $(TESTS) $(TEST_SCRIPTS))
 
