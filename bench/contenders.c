@@ -34,11 +34,11 @@ enum { RUNS = 10, HISTORY = 2, LAGGED_SWEEPS = 3, SWEEPS_MAX = 300 };
 typedef struct effort {
     double contacts;
     int settle, timed, from_zeros; /* steps: before those timed, timed, timed of what begins from zeros */
-    int every;                     /* digits from one tolerance to the next */
+    int every, last, algorithm1;   /* digits from one tolerance to the next, in the last one, in that of Algorithm 1 */
 } effort;
 
-static const effort efforts[] = {{30000, 20, 20, 3, 2}, {1e6, 10, 8, 1, 2}, {INFINITY, 3, 2, 1, 4}};
-enum { EFFORTS = sizeof efforts / sizeof efforts[0] };
+static const effort efforts[] = {{30000, 20, 20, 3, 2, 14, 14}, {1e6, 10, 8, 1, 2, 14, 14}, {INFINITY, 3, 1, 1, 4, 10, 6}};
+static const effort least = {0, 3, 2, 1, 4, 14, 14};
 
 static const double *normals(const contest *c)
 {
@@ -58,14 +58,15 @@ static void add_point(contest *c, const contender *who, double setting)
     c->point[c->points++] = (point){.contender = who, .setting = setting};
 }
 
-static void list_points(contest *c, int every)
+static void list_points(contest *c, const effort *e)
 {
     for (int k = 0; k < CONTENDERS; k++) {
         const contender *who = &contenders[k];
         if (who->kind == KIND_HERTZ) add_point(c, who, 0);
         for (int s = 1; s <= LAGGED_SWEEPS && who->kind == KIND_LAGGED; s++) add_point(c, who, s);
         if (who->kind == KIND_HERTZ || who->kind == KIND_LAGGED) continue;
-        for (int digits = 2; digits <= 14; digits += every) add_point(c, who, pow(10, -digits));
+        const int last = who->kind == KIND_ALGORITHM1 ? e->algorithm1 : e->last;
+        for (int digits = 2; digits <= last; digits += e->every) add_point(c, who, pow(10, -digits));
     }
 }
 
@@ -236,12 +237,12 @@ int contest_run(contest *c, const char *name, bool quick, char *error, size_t er
     memset(c, 0, sizeof *c);
     if (compression_open(&c->path, name, error, error_size)) return -1;
     const effort *e = &efforts[0];
-    while (!quick && (double)c->path.n.count > e->contacts) e++;
-    if (quick) e = &efforts[EFFORTS - 1];
+    while ((double)c->path.n.count > e->contacts) e++;
+    if (quick) e = &least;
     c->first_timed = HISTORY + e->settle;
     c->path.steps = c->first_timed + e->timed - 1;
     c->first_from_zeros = c->path.steps + 1 - e->from_zeros;
-    list_points(c, e->every);
+    list_points(c, e);
     algorithm1 a;
     const char *reason = NULL;
     if (algorithm1_init(&a, &c->path.p, &c->path.n) || allocate(c, e->timed)) reason = "out of memory";
