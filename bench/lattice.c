@@ -9,9 +9,10 @@
 enum { SITES = 4, SMALLEST = 3, LARGEST = 500 };
 /*
  * Lengths in mean radii.  Neighbours are 2 (1 - CLOSER) apart in the perfect crystal; with the disorder, whose standard deviation
- * is 0.06, three in four overlap.  Second neighbours stay 0.5 apart, a gap that no reach in use closes.
+ * is 0.035, three in four overlap.  Second neighbours stay 0.6 apart, a gap that no reach in use closes.  Twice the disorder would
+ * put the extremes of large scenes close to the end of the stable branch: they would be harder than small ones, not just larger.
  */
-static const double RADIUS = 1e-3, CLOSER = 0.02, DISORDER = 0.05;
+static const double RADIUS = 1e-3, CLOSER = 0.0125, DISORDER = 0.03;
 static const nlc_material material = {1e8, 0.3};
 
 /* Steele's splitmix64: the same everywhere. */
