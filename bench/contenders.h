@@ -38,7 +38,9 @@ typedef struct point {
     const contender *contender;
     double setting; /* tolerance, or number of sweeps; 0: there is nothing to set */
     int samples;    /* 0: it never got there */
-    double sample[RUNS_MAX]; /* ns per contact and step */
+    double sample[RUNS_MAX]; /* ns per contact and step: mean of a run's steps, of which some may need more sweeps than others */
+    double seconds;          /* of the steps of the run going on */
+    int steps;
     double largest, mean_square; /* errors of the forces, over all steps timed; see compression_error */
     double sweeps;               /* a step, on average */
     nlc_status status;           /* warnings of all steps; < 0: no forces */
