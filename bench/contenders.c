@@ -23,6 +23,13 @@ static const contender contenders[] = {
     {.key = "solve_zeros", .label = "default, from zeros", .kind = KIND_SOLVE},
     {.key = "solve_last", .label = "default, from last step", .kind = KIND_SOLVE, .start = START_LAST_STEP},
     {.key = "solve_predicted", .label = "default, predicted", .kind = KIND_SOLVE, .start = START_PREDICTED},
+    {.key = "sphere_zeros", .label = "sphere, from zeros", .kind = KIND_SOLVE, .options = {.model = NLC_MODEL_SPHERE}},
+    {.key = "sphere_zeros_kept", .label = "sphere, zeros, kept", .kind = KIND_SOLVE, .keeps = true,
+     .options = {.model = NLC_MODEL_SPHERE}},
+    {.key = "sphere_last", .label = "sphere, from last step", .kind = KIND_SOLVE, .start = START_LAST_STEP,
+     .options = {.model = NLC_MODEL_SPHERE}},
+    {.key = "sphere_last_kept", .label = "sphere, last step, kept", .kind = KIND_SOLVE, .start = START_LAST_STEP, .keeps = true,
+     .options = {.model = NLC_MODEL_SPHERE}},
 };
 enum { CONTENDERS = sizeof contenders / sizeof contenders[0] };
 
@@ -35,10 +42,12 @@ typedef struct effort {
     double contacts;
     int settle, timed, from_zeros; /* steps: before those timed, timed, timed of what begins from zeros */
     int every, last, algorithm1;   /* digits from one tolerance to the next, in the last one, in that of Algorithm 1 */
+    int sphere;                    /* its starts: 0 none, 1 zeros, 2 the last step, too */
 } effort;
 
-static const effort efforts[] = {{30000, 20, 12, 2, 2, 14, 14}, {1e6, 10, 8, 1, 2, 14, 14}, {INFINITY, 3, 1, 1, 4, 10, 6}};
-static const effort least = {0, 3, 2, 1, 4, 14, 14};
+static const effort efforts[] = {
+    {30000, 20, 12, 2, 2, 14, 14, 2}, {1e6, 10, 8, 1, 2, 14, 14, 1}, {INFINITY, 3, 1, 1, 4, 10, 6, 0}};
+static const effort least = {0, 3, 2, 1, 4, 14, 14, 2};
 
 static const double *normals(const contest *c)
 {
@@ -62,20 +71,33 @@ static void list_points(contest *c, const effort *e)
 {
     for (int k = 0; k < CONTENDERS; k++) {
         const contender *who = &contenders[k];
+        const bool sphere = who->options.model == NLC_MODEL_SPHERE;
+        if (sphere && (int)who->start >= e->sphere) continue;
         if (who->kind == KIND_HERTZ) add_point(c, who, 0);
         for (int s = 1; s <= LAGGED_SWEEPS && who->kind == KIND_LAGGED; s++) add_point(c, who, s);
         if (who->kind == KIND_HERTZ || who->kind == KIND_LAGGED) continue;
         const int last = who->kind == KIND_ALGORITHM1 ? e->algorithm1 : e->last;
-        for (int digits = 2; digits <= last; digits += e->every) add_point(c, who, pow(10, -digits));
+        for (int digits = 2; digits <= last; digits += sphere ? 4 : e->every) add_point(c, who, pow(10, -digits));
     }
 }
 
-static nlc_status use(contest *c, const nlc_options *options, double tolerance)
+/* The cache is as large as it has to be, whatever used it before. */
+static nlc_status use(contest *c, const contender *who, double tolerance)
 {
-    nlc_options o = *options;
+    nlc_options o = who->options;
     o.struct_size = sizeof o;
     o.tolerance = tolerance;
-    return nlc_set_options(c->path.network, &o, NULL);
+    nlc_status status = nlc_set_options(c->path.network, &o, NULL);
+    if (status < 0 || !who->keeps) return status;
+    free(c->cache);
+    o.cache_size = nlc_cache_size(c->path.network);
+    o.cache = c->cache = malloc(o.cache_size + 1);
+    return c->cache ? nlc_set_options(c->path.network, &o, NULL) : NLC_ERROR_MEMORY_SIZE;
+}
+
+static const converged *exact_of(const contest *c, const contender *who)
+{
+    return &c->exact[who->options.model == NLC_MODEL_SPHERE];
 }
 
 /* ---- a step */
@@ -84,7 +106,7 @@ static void note(contest *c, point *p, int step, double seconds, double sweeps)
 {
     if (step < c->first_timed) return;
     if (c->runs == 0) {
-        const force_error e = compression_error(&c->path, c->force, c->exact[step - c->first_timed]);
+        const force_error e = compression_error(&c->path, c->force, exact_of(c, p->contender)->force[step - c->first_timed]);
         p->largest = e.largest <= p->largest ? p->largest : e.largest;
         p->mean_square = e.mean_square <= p->mean_square ? p->mean_square : e.mean_square;
         p->sweeps += sweeps;
@@ -131,12 +153,12 @@ static void make_step(contest *c, point *p, int step)
 }
 
 /* The displacements of the first two steps with errors up to the size given, relative, which differ from contact to contact. */
-static void begin_history(contest *c, double size)
+static void begin_history(contest *c, const converged *exact, double size)
 {
     for (int64_t k = 0; k < c->path.n.count; k++) {
         const uint64_t random = (uint64_t)k * UINT64_C(0x9e3779b97f4a7c15);
-        c->previous[k] = c->exact_g[0][k] * (1 + size * ((double)(random >> 54) / 512 - 1));
-        c->g[k] = c->exact_g[1][k] * (1 + size * ((double)(random >> 44 & 1023) / 512 - 1));
+        c->previous[k] = exact->g[0][k] * (1 + size * ((double)(random >> 54) / 512 - 1));
+        c->g[k] = exact->g[1][k] * (1 + size * ((double)(random >> 44 & 1023) / 512 - 1));
     }
 }
 
@@ -144,9 +166,9 @@ static void run_point(contest *c, point *p)
 {
     const contender *who = p->contender;
     const bool history = who->kind == KIND_LAGGED || who->start != START_ZEROS;
-    const nlc_status status = use(c, &who->options, who->kind == KIND_SOLVE ? p->setting : 0);
+    const nlc_status status = use(c, who, who->kind == KIND_SOLVE ? p->setting : 0);
     if (status < 0) p->status = status;
-    begin_history(c, who->kind == KIND_SOLVE ? p->setting : 0);
+    begin_history(c, exact_of(c, who), who->kind == KIND_SOLVE ? p->setting : 0);
     for (int step = history ? HISTORY : c->first_from_zeros; step <= c->path.steps && p->status >= 0; step++) {
         compression_set_step(&c->path, step);
         make_step(c, p, step);
@@ -195,27 +217,36 @@ static void run_algorithm1(contest *c, const algorithm1 *a, point *p, int count)
 
 static int allocate(contest *c, int timed)
 {
-    double **array[] = {&c->force, &c->g, &c->previous, &c->exact_g[0], &c->exact_g[1]};
-    bool there = (c->w = calloc((size_t)c->path.n.count, 2 * sizeof(double))) != NULL;
+    const size_t contacts = (size_t)c->path.n.count;
+    double **array[] = {&c->force,         &c->g,             &c->previous,      &c->exact[0].g[0],
+                        &c->exact[0].g[1], &c->exact[1].g[0], &c->exact[1].g[1]};
+    bool there = (c->w = calloc(contacts, 2 * sizeof(double))) != NULL;
     for (size_t k = 0; k < sizeof array / sizeof *array; k++)
-        there = (*array[k] = calloc((size_t)c->path.n.count, sizeof(double))) && there;
-    c->exact = calloc((size_t)timed + 1, sizeof *c->exact);
-    for (int k = 0; k < timed && c->exact; k++)
-        there = (c->exact[k] = malloc((size_t)c->path.n.count * sizeof(double))) && there;
-    return there && c->exact ? 0 : -1;
+        there = (*array[k] = calloc(contacts, sizeof(double))) && there;
+    for (int m = 0; m < 2; m++) {
+        double **force = c->exact[m].force = calloc((size_t)timed + 1, sizeof *force);
+        for (int k = 0; k < timed && force; k++) there = (force[k] = malloc(contacts * sizeof(double))) && there;
+        there = there && force;
+    }
+    return there ? 0 : -1;
 }
 
-static nlc_status solve_exactly(contest *c)
+/* A warning that says that there is no such solution is returned, too. */
+static nlc_status solve_exactly(contest *c, int32_t model)
 {
-    nlc_status status = use(c, &contenders[CONTENDERS - 1].options, CONVERGED);
+    const contender who = {.options = {.model = model}, .keeps = true};
+    const converged *exact = exact_of(c, &who);
+    nlc_status status = use(c, &who, CONVERGED);
+    memset(c->g, 0, bytes(c));
     for (int step = 0; step <= c->path.steps && status >= 0; step++) {
         if (step >= HISTORY && step < c->first_timed) continue;
-        double *force = step < c->first_timed ? c->force : c->exact[step - c->first_timed];
         compression_set_step(&c->path, step);
-        status = nlc_solve(c->path.network, force, c->g, c->path.overlap, normals(c), NULL);
-        if (step < HISTORY) memcpy(c->exact_g[step], c->g, bytes(c));
+        double *force = step < c->first_timed ? c->force : exact->force[step - c->first_timed];
+        const nlc_status warning = nlc_solve(c->path.network, force, c->g, c->path.overlap, normals(c), NULL);
+        status = warning < 0 ? warning : status | warning;
+        if (step < HISTORY) memcpy(exact->g[step], c->g, bytes(c));
     }
-    return status;
+    return status & (NLC_WARNING_NOT_CONVERGED | NLC_WARNING_WEAKENED) || status < 0 ? status : NLC_OK;
 }
 
 static void run_all(contest *c, const algorithm1 *a, int runs)
@@ -255,8 +286,9 @@ int contest_run(contest *c, const char *name, bool quick, char *error, size_t er
     const char *reason = NULL;
     if (algorithm1_init(&a, &c->path.p, &c->path.n) || allocate(c, e->timed)) reason = "out of memory";
     if (!reason) {
-        const nlc_status status = solve_exactly(c);
-        if (status < 0 || status & (NLC_WARNING_NOT_CONVERGED | NLC_WARNING_WEAKENED)) reason = nlc_strerror(status);
+        nlc_status status = solve_exactly(c, NLC_MODEL_GONZALEZ_CUITINO);
+        if (!status && e->sphere > 0) status = solve_exactly(c, NLC_MODEL_SPHERE);
+        if (status) reason = nlc_strerror(status);
     }
     if (reason) snprintf(error, error_size, "%s: %s", name, reason);
     else run_all(c, &a, quick ? 1 : RUNS);
@@ -266,9 +298,12 @@ int contest_run(contest *c, const char *name, bool quick, char *error, size_t er
 
 void contest_free(contest *c)
 {
-    double *array[] = {c->force, c->g, c->previous, c->w, c->exact_g[0], c->exact_g[1]};
+    double *array[] = {c->force, c->g, c->previous, c->w, c->exact[0].g[0], c->exact[0].g[1], c->exact[1].g[0], c->exact[1].g[1]};
     for (size_t k = 0; k < sizeof array / sizeof *array; k++) free(array[k]);
-    for (int k = 0; c->exact && k <= c->path.steps - c->first_timed; k++) free(c->exact[k]);
-    free(c->exact);
+    for (int m = 0; m < 2; m++) {
+        for (int k = 0; c->exact[m].force && k <= c->path.steps - c->first_timed; k++) free(c->exact[m].force[k]);
+        free(c->exact[m].force);
+    }
+    free(c->cache);
     compression_free(&c->path);
 }

@@ -31,6 +31,7 @@ typedef struct contender {
     contender_kind kind;
     contender_start start; /* of nlc_solve */
     nlc_options options;   /* of nlc_solve; the tolerance is the point's */
+    bool keeps;            /* coefficients, in options.cache */
 } contender;
 
 /* One point of the figure. */
@@ -48,13 +49,19 @@ typedef struct point {
 
 enum { POINTS_MAX = 100 };
 
+/* What a model's forces are compared with: displacements of the first two steps, forces of those timed. */
+typedef struct converged {
+    double *g[2], **force;
+} converged;
+
 typedef struct contest {
     compression path;
     int first_timed, points, runs; /* runs made */
     int first_from_zeros;          /* what needs no history is timed in fewer steps */
     point point[POINTS_MAX];
     double *force, *g, *previous, *w; /* [contacts]; w [contacts][2] */
-    double *exact_g[2], **exact;      /* displacements of the first two steps, forces of those timed */
+    converged exact[2]; /* of NLC_MODEL_GONZALEZ_CUITINO, of NLC_MODEL_SPHERE */
+    void *cache;
 } contest;
 
 /*
@@ -63,7 +70,7 @@ typedef struct contest {
  * name      see packing_open
  * quick     one step, few tolerances
  * error     [error_size] out, on failure
- * Large packings get fewer tolerances and steps.  Returns 0, or -1 on failure.  To be freed in any case.
+ * Large packings get fewer tolerances and steps, and the sphere little or none.  Returns 0, or -1 on failure.  To be freed in any case.
  */
 int contest_run(contest *c, const char *name, bool quick, char *error, size_t error_size);
 void contest_free(contest *c);

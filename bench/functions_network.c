@@ -106,6 +106,12 @@ static nlc_status run_solve_again(void *context)
     return nlc_solve(v->network, s->work, s->start, s->n.overlap, normals(s), NULL);
 }
 
+static nlc_status run_cache_size(void *context)
+{
+    const variant *v = context;
+    return nlc_cache_size(v->network) > 0 ? NLC_OK : NLC_ERROR_MODEL;
+}
+
 static nlc_status run_predict(void *context)
 {
     function_scene *s = context; /* the same every time: both are equal */
@@ -297,6 +303,21 @@ static nlc_status add_sweeps(function_scene *s, function_list *list)
     return status;
 }
 
+/* Solves with coefficients recomputed and kept. */
+static nlc_status add_sphere(function_scene *s, function_list *list)
+{
+    nlc_status status = add_network(s, &(nlc_options){.model = NLC_MODEL_SPHERE});
+    if (status >= 0) status = add_network(s, &(nlc_options){.model = NLC_MODEL_SPHERE});
+    if (status < 0) return status;
+    variant *plain = &s->variants[s->networks - 2], *kept = plain + 1;
+    kept->options.cache_size = nlc_cache_size(kept->network);
+    kept->options.cache = get(s, (int64_t)kept->options.cache_size, 1);
+    functions_add(list, "nlc_cache_size", "call", 1, run_cache_size, plain);
+    functions_add(list, "nlc_solve model sphere", "contact", (double)s->n.count, run_solve, plain);
+    functions_add(list, "nlc_solve model sphere kept", "contact", (double)s->n.count, run_solve, kept);
+    return s->failed ? NLC_ERROR_MEMORY_SIZE : nlc_set_options(kept->network, &kept->options, NULL);
+}
+
 static void add_calls(function_scene *s, function_list *list)
 {
     variant *v = &s->variants[0];
@@ -343,6 +364,7 @@ static const char *prepare(function_scene *s, function_list *list)
         memcpy(s->copy, s->nonlocal, (size_t)s->n.count * sizeof(double));
         add_calls(s, list);
         status = add_sweeps(s, list);
+        if (status >= 0) status = add_sphere(s, list);
     }
     return status < 0 ? nlc_strerror(status) : NULL;
 }

@@ -33,7 +33,7 @@ awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) c[$k] = k; next }
     $c["status"] != 0 && $c["status"] != 2 { bad("status") }
     !($c["minimum"] > 0) { bad("time") }
     !($c["rms_error"] <= error) { bad("root mean square") }
-    series ~ /^(fixed|solve)/ && !(error <= setting) { bad("beyond the tolerance") }
+    series ~ /^(fixed|solve|sphere)/ && !(error <= setting) { bad("beyond the tolerance") }
     series == "algorithm1" && !(error <= 10 * setting) { bad("beyond ten times the tolerance") }
     series == "hertz" && !(error > 0.1 && error < 0.5) { bad("Hertz") }
     series == "lagged" && !(error > 1e-7 && error < 1e-3) { bad("lagged") }
@@ -43,7 +43,7 @@ awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) c[$k] = k; next }
             if (n[s] != (s == "hertz" ? 3 : s == "lagged" ? 9 : 12)) { print s ": " n[s] " points"; failed = 1 }
         }
         for (p in packing) packings++
-        exit failed || kinds != 9 || packings != 3
+        exit failed || kinds != 13 || packings != 3
     }' "$tmp/tradeoff.csv" >"$tmp/bad" || { cat "$tmp/bad"; fail "errors"; }
 
 # Sizes; both orders of the same packing: 24 N^3 contacts, and bytes a contact.
