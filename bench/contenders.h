@@ -70,7 +70,8 @@ typedef struct contest {
  * name      see packing_open
  * quick     one step, few tolerances
  * error     [error_size] out, on failure
- * Large packings get fewer tolerances and steps, and the sphere little or none.  Returns 0, or -1 on failure.  To be freed in any case.
+ * Large packings get fewer tolerances and steps, and the sphere little or none.
+ * Returns 0, or -1 on failure.  To be freed in any case.
  */
 int contest_run(contest *c, const char *name, bool quick, char *error, size_t error_size);
 void contest_free(contest *c);
