@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* tradeoff.c - run time against error. */
 #include <errno.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -33,15 +34,23 @@ static void write_csv(FILE *csv, const contest *c, point *p)
     fprintf(csv, ",%s,%g,%.3g,%.3g,%.4g,%d\n", series, p->setting, p->largest, p->mean_square, p->sweeps, (int)p->status);
 }
 
+/* Columns are tolerances; numbers of sweeps begin on the left. */
+static bool is_in_column(const point *p, int column)
+{
+    return p->setting < 1 ? column == (p->setting > 0 ? (int)lround(-log10(p->setting)) / 2 : 1) : column == (int)p->setting;
+}
+
 /* The points of one contender: a line of times, a line of errors. */
 static void print_contender(point *p, int count)
 {
     for (int line = 0; line < 2; line++) {
         printf("  %-30s%6s", line ? "" : p->contender->label, line ? "error" : "ns");
-        for (int k = 0; k < count; k++) {
-            if (p[k].samples == 0) printf("%11s", line ? "" : "-");
+        for (int column = 1, k = 0; k < count; column++) {
+            if (!is_in_column(&p[k], column)) printf("%11s", "");
+            else if (p[k].samples == 0) printf("%11s", line ? "" : "-");
             else if (line) printf("%11.1e", p[k].largest);
             else printf("%11.4g", timing_spread_of(p[k].sample, p[k].samples).median);
+            k += is_in_column(&p[k], column);
         }
         putchar('\n');
     }
@@ -51,9 +60,7 @@ static void print(contest *c)
 {
     printf("%s: %lld contacts and candidates; ns per contact and step, largest error of a force\n\n  %-36s", c->path.p.name,
            (long long)c->path.n.count, "tolerance");
-    const contender *last = c->point[c->points - 1].contender;
-    for (int k = 0; k < c->points; k++)
-        if (c->point[k].contender == last) printf("%11.0e", c->point[k].setting);
+    for (int digits = 2; digits <= 14; digits += 2) printf("%11.0e", pow(10, -digits));
     putchar('\n');
     for (int k = 0, count; k < c->points; k += count) {
         for (count = 1; k + count < c->points && c->point[k + count].contender == c->point[k].contender;) count++;
