@@ -14,7 +14,7 @@ keys = "hertz lagged algorithm1 fixed_zeros fixed_last fixed_predicted solve_zer
 array labels[13] = ["Hertz, no coupling", "1, 2, 3 lagged sweeps", "Algorithm 1 as printed, from zeros", \
     "fixed point, from zeros", "fixed point, from the last step", "fixed point, predicted", \
     "default, from zeros", "default, from the last step", "default, predicted", "exact sphere, from zeros", \
-    "  coefficients kept", "exact sphere, from the last step", "  coefficients kept"]
+    "exact sphere, zeros, coefficients kept", "exact sphere, from the last step", "exact sphere, last step, kept"]
 array colours[13] = ["#777777", "#8c510a", "#000000", "#9ecae1", "#4292c6", "#08519c", "#fdae6b", "#e6550d", "#a50f15", \
     "#a1d99b", "#41ab5d", "#bcbddc", "#6a51a3"]
 array marks[13] = [4, 8, 12, 6, 6, 6, 7, 7, 7, 10, 11, 10, 11]
