@@ -253,10 +253,10 @@ static void run_all(contest *c, const algorithm1 *a, int runs)
 {
     const double start = timing_processor_seconds();
     timing_progress progress;
-    timing_progress_begin(&progress, "runs done");
+    timing_progress_begin(&progress, "points done");
     for (; c->runs < runs && (c->runs == 0 || timing_processor_seconds() - start < TIME_IN_ALL); c->runs++) {
-        timing_progress_update(&progress, c->runs, runs);
         for (int k = 0; k < c->points; k++) {
+            timing_progress_update(&progress, c->runs * c->points + k, runs * c->points);
             point *p = &c->point[k];
             int count = 1;
             if (p->contender->kind != KIND_ALGORITHM1) {
