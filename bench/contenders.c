@@ -23,6 +23,8 @@ static const contender contenders[] = {
     {.key = "solve_zeros", .label = "default, from zeros", .kind = KIND_SOLVE},
     {.key = "solve_last", .label = "default, from last step", .kind = KIND_SOLVE, .start = START_LAST_STEP},
     {.key = "solve_predicted", .label = "default, predicted", .kind = KIND_SOLVE, .start = START_PREDICTED},
+    {.key = "solve_zeros_kept", .label = "default, zeros, kept", .kind = KIND_SOLVE, .keeps = true},
+    {.key = "solve_last_kept", .label = "default, last step, kept", .kind = KIND_SOLVE, .start = START_LAST_STEP, .keeps = true},
     {.key = "sphere_zeros", .label = "sphere, from zeros", .kind = KIND_SOLVE, .options = {.model = NLC_MODEL_SPHERE}},
     {.key = "sphere_zeros_kept", .label = "sphere, zeros, kept", .kind = KIND_SOLVE, .keeps = true,
      .options = {.model = NLC_MODEL_SPHERE}},
@@ -91,6 +93,7 @@ static nlc_status use(contest *c, const contender *who, double tolerance)
     if (status < 0 || !who->keeps) return status;
     free(c->cache);
     o.cache_size = nlc_cache_size(c->path.network);
+    if (o.cache_size == 0) return NLC_OK; /* nothing is worth keeping */
     o.cache = c->cache = malloc(o.cache_size + 1);
     return c->cache ? nlc_set_options(c->path.network, &o, NULL) : NLC_ERROR_MEMORY_SIZE;
 }

@@ -304,17 +304,17 @@ static nlc_status add_sweeps(function_scene *s, function_list *list)
 }
 
 /* Solves with coefficients recomputed and kept. */
-static nlc_status add_sphere(function_scene *s, function_list *list)
+static nlc_status add_kept(function_scene *s, function_list *list, int32_t model, const char *key, const char *key_kept)
 {
-    nlc_status status = add_network(s, &(nlc_options){.model = NLC_MODEL_SPHERE});
-    if (status >= 0) status = add_network(s, &(nlc_options){.model = NLC_MODEL_SPHERE});
+    nlc_status status = add_network(s, &(nlc_options){.model = model});
+    if (status >= 0) status = add_network(s, &(nlc_options){.model = model});
     if (status < 0) return status;
     variant *plain = &s->variants[s->networks - 2], *kept = plain + 1;
     kept->options.cache_size = nlc_cache_size(kept->network);
     kept->options.cache = get(s, (int64_t)kept->options.cache_size, 1);
-    functions_add(list, "nlc_cache_size", "call", 1, run_cache_size, plain);
-    functions_add(list, "nlc_solve model sphere", "contact", (double)s->n.count, run_solve, plain);
-    functions_add(list, "nlc_solve model sphere kept", "contact", (double)s->n.count, run_solve, kept);
+    if (model == NLC_MODEL_SPHERE) functions_add(list, "nlc_cache_size", "call", 1, run_cache_size, plain);
+    if (key) functions_add(list, key, "contact", (double)s->n.count, run_solve, plain);
+    functions_add(list, key_kept, "contact", (double)s->n.count, run_solve, kept);
     return s->failed ? NLC_ERROR_MEMORY_SIZE : nlc_set_options(kept->network, &kept->options, NULL);
 }
 
@@ -364,7 +364,8 @@ static const char *prepare(function_scene *s, function_list *list)
         memcpy(s->copy, s->nonlocal, (size_t)s->n.count * sizeof(double));
         add_calls(s, list);
         status = add_sweeps(s, list);
-        if (status >= 0) status = add_sphere(s, list);
+        if (status >= 0) status = add_kept(s, list, NLC_MODEL_GONZALEZ_CUITINO, NULL, "nlc_solve from zeros kept");
+        if (status >= 0) status = add_kept(s, list, NLC_MODEL_SPHERE, "nlc_solve model sphere", "nlc_solve model sphere kept");
     }
     return status < 0 ? nlc_strerror(status) : NULL;
 }

@@ -43,7 +43,7 @@ awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) c[$k] = k; next }
             if (n[s] != (s == "hertz" ? 3 : s == "lagged" ? 9 : 12)) { print s ": " n[s] " points"; failed = 1 }
         }
         for (p in packing) packings++
-        exit failed || kinds != 13 || packings != 3
+        exit failed || kinds != 15 || packings != 3
     }' "$tmp/tradeoff.csv" >"$tmp/bad" || { cat "$tmp/bad"; fail "errors"; }
 
 # Sizes; both orders of the same packing: 24 N^3 contacts, and bytes a contact.

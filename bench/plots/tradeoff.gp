@@ -10,14 +10,15 @@ if (strstrt(GPVAL_TERMINALS, "pngcairo") > 0) {
     set terminal pngcairo size 620 * across, 430 * down + 75 font "sans,10" background "white"
 }
 keys = "hertz lagged algorithm1 fixed_zeros fixed_last fixed_predicted solve_zeros solve_last solve_predicted \
-    sphere_zeros sphere_zeros_kept sphere_last sphere_last_kept"
-array labels[13] = ["Hertz, no coupling", "1, 2, 3 lagged sweeps", "Algorithm 1 as printed, from zeros", \
+    solve_zeros_kept solve_last_kept sphere_zeros sphere_zeros_kept sphere_last sphere_last_kept"
+array labels[15] = ["Hertz, no coupling", "1, 2, 3 lagged sweeps", "Algorithm 1 as printed, from zeros", \
     "fixed point, from zeros", "fixed point, from the last step", "fixed point, predicted", \
-    "default, from zeros", "default, from the last step", "default, predicted", "exact sphere, from zeros", \
+    "default, from zeros", "default, from the last step", "default, predicted", \
+    "default, from zeros, coefficients kept", "default, last step, kept", "exact sphere, from zeros", \
     "exact sphere, zeros, coefficients kept", "exact sphere, from the last step", "exact sphere, last step, kept"]
-array colours[13] = ["#777777", "#8c510a", "#000000", "#9ecae1", "#4292c6", "#08519c", "#fdae6b", "#e6550d", "#a50f15", \
-    "#a1d99b", "#41ab5d", "#bcbddc", "#6a51a3"]
-array marks[13] = [4, 8, 12, 6, 6, 6, 7, 7, 7, 10, 11, 10, 11]
+array colours[15] = ["#777777", "#8c510a", "#000000", "#9ecae1", "#4292c6", "#08519c", "#fdae6b", "#e6550d", "#a50f15", \
+    "#fdae6b", "#e6550d", "#a1d99b", "#41ab5d", "#bcbddc", "#6a51a3"]
+array marks[15] = [4, 8, 12, 6, 6, 6, 7, 7, 7, 5, 5, 10, 11, 10, 11]
 set output out."/tradeoff.png"
 set logscale xy
 set xrange [1:1e-16]
@@ -33,7 +34,7 @@ set origin 0, top
 set key at screen 0.5, screen 0.995 center top horizontal maxrows 4 samplen 2
 unset border; unset tics; unset xlabel; unset ylabel; unset grid
 set yrange [1:10]
-plot for [k=1:13] 0.1 with linespoints lc rgb colours[k] pt marks[k] lw 1.5 title labels[k]
+plot for [k=1:15] 0.1 with linespoints lc rgb colours[k] pt marks[k] lw 1.5 title labels[k]
 set border lc rgb "#444444"; set tics textcolor rgb "#222222"; set grid xtics ytics lt 1 lw 0.5 lc rgb "#dddddd"
 set xlabel "largest error of a force"
 set ylabel "ns per contact and step"
@@ -44,7 +45,7 @@ do for [p=1:count] {
     set size 1.0 / across, top / down
     set origin ((p - 1) % across) * 1.0 / across, top - (1 + (p - 1) / across) * top / down
     set title name noenhanced
-    plot for [k=1:13] rows(files, '$c["packing"] == "'.name.'" && $c["series"] == "'.word(keys, k).'"', \
+    plot for [k=1:15] rows(files, '$c["packing"] == "'.name.'" && $c["series"] == "'.word(keys, k).'"', \
         '($c["error"] < 1e-16 ? 1e-16 : $c["error"]), $c["minimum"], $c["median"]') using 1:3 \
         with linespoints lc rgb colours[k] pt marks[k] lw 1.5
 }
