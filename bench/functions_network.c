@@ -303,16 +303,16 @@ static nlc_status add_sweeps(function_scene *s, function_list *list)
     return status;
 }
 
-/* Solves with coefficients recomputed and kept. */
+/* Solves with coefficients kept, and recomputed where key is not NULL. */
 static nlc_status add_kept(function_scene *s, function_list *list, int32_t model, const char *key, const char *key_kept)
 {
     nlc_status status = add_network(s, &(nlc_options){.model = model});
-    if (status >= 0) status = add_network(s, &(nlc_options){.model = model});
+    variant *kept = &s->variants[s->networks - 1], *plain = kept + 1;
+    if (status >= 0 && key) status = add_network(s, &(nlc_options){.model = model});
     if (status < 0) return status;
-    variant *plain = &s->variants[s->networks - 2], *kept = plain + 1;
     kept->options.cache_size = nlc_cache_size(kept->network);
     kept->options.cache = get(s, (int64_t)kept->options.cache_size, 1);
-    if (model == NLC_MODEL_SPHERE) functions_add(list, "nlc_cache_size", "call", 1, run_cache_size, plain);
+    if (key) functions_add(list, "nlc_cache_size", "call", 1, run_cache_size, plain);
     if (key) functions_add(list, key, "contact", (double)s->n.count, run_solve, plain);
     functions_add(list, key_kept, "contact", (double)s->n.count, run_solve, kept);
     return s->failed ? NLC_ERROR_MEMORY_SIZE : nlc_set_options(kept->network, &kept->options, NULL);
