@@ -3,6 +3,7 @@
 columns = 'BEGIN { FS = "," } FNR == 1 { for (k = 1; k <= NF; k++) c[$k] = k; next } '
 # A command whose output are the rows of files (those that exist) for which an awk condition holds, as the awk list given.
 rows(files, condition, list) = "< awk '" . columns . "(" . condition . ") { print " . list . " }' " . files
+count_rows(files, condition) = int(system("awk '" . columns . "(" . condition . ") { n++ } END { print n + 0 }' " . files))
 existing(files) = system("cd ".results." && for f in ".files."; do [ -e $f ] && printf '%s ' '".results."/'$f; done; :")
 packings(files) = system("awk '" . columns . "!seen[$c[\"packing\"]]++ { print $c[\"packing\"] }' " . files)
 if (strstrt(GPVAL_TERMINALS, "pngcairo") > 0) {

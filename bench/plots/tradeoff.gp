@@ -45,8 +45,10 @@ do for [p=1:count] {
     set size 1.0 / across, top / down
     set origin ((p - 1) % across) * 1.0 / across, top - (1 + (p - 1) / across) * top / down
     set title name noenhanced
-    plot for [k=1:15] rows(files, '$c["packing"] == "'.name.'" && $c["series"] == "'.word(keys, k).'"', \
-        '($c["error"] < 1e-16 ? 1e-16 : $c["error"]), $c["minimum"], $c["median"]') using 1:3 \
-        with linespoints lc rgb colours[k] pt marks[k] lw 1.5
+    here(k) = '$c["packing"] == "'.name.'" && $c["series"] == "'.word(keys, k).'"'
+    present = ""
+    do for [k=1:15] { if (count_rows(files, here(k)) > 0) { present = present." ".k } }
+    plot for [k in present] rows(files, here(int(k)), '($c["error"] < 1e-16 ? 1e-16 : $c["error"]), $c["median"]') \
+        using 1:2 with linespoints lc rgb colours[int(k)] pt marks[int(k)] lw 1.5
 }
 unset multiplot
