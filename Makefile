@@ -124,7 +124,7 @@ bench: $(addprefix $(B)/bench/,bench roofline steps functions tradeoff scale) ##
 	@$(B)/bench/functions --csv $(RESULTS)/functions.csv $(PACKING)
 	@$(B)/bench/tradeoff --csv $(RESULTS)/tradeoff.csv $(TRADEOFF_PACKINGS)
 	@$(B)/bench/scale --csv $(RESULTS)/scale.csv
-bench-large: $(B)/bench/tradeoff $(B)/bench/scale ## the same on ten million contacts; some 20 minutes and 8 GB
+bench-large: $(B)/bench/tradeoff $(B)/bench/scale ## the same on ten million contacts; some 20 minutes and 4 GB
 	@mkdir -p $(RESULTS)
 	@$(B)/bench/scale --csv $(RESULTS)/scale_large.csv 1.1e7
 	@$(B)/bench/tradeoff --csv $(RESULTS)/tradeoff_large.csv lattice:75
