@@ -36,7 +36,8 @@ class Options(_Struct):
     _fields_ = [('struct_size', c_size_t), ('model', c_int32), ('method', c_int32), ('tolerance', c_double),
                 ('max_sweeps', c_int64), ('prefactor', c_double), ('simd', c_int32), ('points', c_int32), ('stiffness', c_void_p),
                 ('cache', c_void_p), ('cache_size', c_size_t),
-                ('parallel_for', c_void_p), ('parallel_context', c_void_p)]
+                ('parallel_for', c_void_p), ('parallel_context', c_void_p),
+                ('owned_particles', c_int64), ('exchange', c_void_p), ('reduce', c_void_p), ('context', c_void_p)]
 
 
 class Info(_Struct):

@@ -47,6 +47,9 @@ module nlcontact
     integer(c_int32_t), parameter :: NLC_ERROR_SAME_PLACE = -32
     integer(c_int32_t), parameter :: NLC_ERROR_CELL = -33
     integer(c_int32_t), parameter :: NLC_ERROR_CAPACITY = -34
+    integer(c_int32_t), parameter :: NLC_ERROR_GHOST = -35
+    integer(c_int32_t), parameter :: NLC_ERROR_REMOTE = -36
+    integer(c_int32_t), parameter :: NLC_ERROR_CALLBACK = -37
     integer(c_int32_t), parameter :: NLC_WARNING_CLOSE = 1
     integer(c_int32_t), parameter :: NLC_WARNING_ROUNDING = 2
     integer(c_int32_t), parameter :: NLC_WARNING_WEAKENED = 4
@@ -66,6 +69,8 @@ module nlcontact
     integer(c_int32_t), parameter :: NLC_SIMD_AVX2 = 2
     integer(c_int32_t), parameter :: NLC_SIMD_AVX512 = 3
     integer(c_int32_t), parameter :: NLC_SIMD_NEON = 4
+    integer(c_int32_t), parameter :: NLC_REDUCE_SUM = 0
+    integer(c_int32_t), parameter :: NLC_REDUCE_MAX = 1
 
     type, bind(c) :: nlc_material
         real(c_double) :: young = 0
@@ -87,7 +92,7 @@ module nlcontact
     end type
 
     type, bind(c) :: nlc_options
-        integer(c_size_t) :: struct_size = 88
+        integer(c_size_t) :: struct_size = 120
         integer(c_int32_t) :: model = 0
         integer(c_int32_t) :: method = 0
         real(c_double) :: tolerance = 0
@@ -100,6 +105,10 @@ module nlcontact
         integer(c_size_t) :: cache_size = 0
         type(c_funptr) :: parallel_for = c_null_funptr
         type(c_ptr) :: parallel_context = c_null_ptr
+        integer(c_int64_t) :: owned_particles = 0
+        type(c_funptr) :: exchange = c_null_funptr
+        type(c_funptr) :: reduce = c_null_funptr
+        type(c_ptr) :: context = c_null_ptr
     end type
 
     type, bind(c) :: nlc_info

@@ -109,6 +109,9 @@ extern "C" {
     X(NLC_ERROR_SAME_PLACE,     -32, "two centres are in the same place",                                "contact")         \
     X(NLC_ERROR_CELL,           -33, "a periodic cell is no cell, or narrower than two diameters",       "contact or -1")   \
     X(NLC_ERROR_CAPACITY,       -34, "the room given is too small for the result",                       "room needed")     \
+    X(NLC_ERROR_GHOST,          -35, "a contact has no particle that is owned here",                     "contact")         \
+    X(NLC_ERROR_REMOTE,         -36, "another rank has failed",                                          "-1")              \
+    X(NLC_ERROR_CALLBACK,       -37, "a callback has failed",                                            "what it returned")\
     X(NLC_WARNING_CLOSE,          1, "circles of contact overlap: the model does not hold there",        "-1")              \
     X(NLC_WARNING_ROUNDING,       2, "rounding keeps the forces from reaching the tolerance",            "-1")              \
     X(NLC_WARNING_WEAKENED,       4, "beyond the stable branch: the coupling was weakened",              "-1")              \
@@ -499,6 +502,47 @@ enum {
  */
 typedef void (*nlc_parallel_callback)(void *context, void (*task)(void *work, int64_t k), void *work, int64_t count);
 
+/*
+ * Networks shared out among ranks, such as the processes of an MPI program.
+ *
+ * Each particle is owned by one rank.  A rank's network has the particles that it owns, numbers 0 ... owned_particles - 1, then
+ * ghosts: those owned elsewhere that touch one of its own, with their radii and materials; then walls.  It has all contacts of the
+ * particles that it owns and no others, so that one between particles of two ranks is on both: each rank computes the
+ * displacements of the sides on its own particles, the callback exchange brings those on ghosts, and both find the same force.
+ * Overlaps, normals and options.stiffness of such a contact have to be the same on both, to rounding; which particle is called i
+ * may differ.  A rank may be without contacts or particles, and takes part in all calls nonetheless.
+ *
+ * With callbacks nlc_solve, nlc_sweep, nlc_energy, nlc_tangent, nlc_tangent_inverse and nlc_tangent_bound are collective: all ranks
+ * call them together, with the same model, points, method, tolerance, max_sweeps and prefactor, on the same kind of
+ * processor, and all return together.  Where the arguments of one are wrong it returns its error and the others return
+ * NLC_ERROR_REMOTE; only without a valid network it cannot tell them.  No other function calls a callback: what
+ * nlc_network_init says to one rank the host has to tell the others.
+ *
+ * The callbacks are called in turn by all ranks alike: exchange, reduce with sums, reduce with maxima, exchange ..., each always with
+ * the same count.  They return 0, or any other number where they fail.  Then that rank returns NLC_ERROR_CALLBACK and the others
+ * NLC_ERROR_REMOTE after at most two more reductions, and an exchange between them if it is due; only a failure of the very last
+ * call comes too late for the others, which return what they have found.
+ */
+
+/*
+ * side   [contacts][2] in-out: on i's side, on j's side, as nlc_sweep's displacement.  The values of sides on ghosts are to be
+ *        replaced by those that the ghost's owner has for the same side of the same contact.  They are
+ *        displacements, but also other numbers that belong to the side's particle.
+ */
+typedef int (*nlc_exchange_callback)(void *context, double *side);
+
+/*
+ * values   [count] in-out: to be replaced by their sums or maxima over all ranks, by the same bits on all of them: what
+ *          MPI_Allreduce in place does.  A few dozen.
+ */
+typedef int (*nlc_reduce_callback)(void *context, double *values, int32_t count, int32_t operation);
+
+/* What reduce is asked for. */
+enum {
+    NLC_REDUCE_SUM = 0, /* the sum over all ranks */
+    NLC_REDUCE_MAX = 1  /* the largest of all ranks */
+};
+
 /* Options of a network.  0 is the default of every field; a NULL pointer to options means all defaults. */
 typedef struct nlc_options {
     size_t struct_size;      /* sizeof(nlc_options) */
@@ -514,6 +558,10 @@ typedef struct nlc_options {
     size_t cache_size;       /*     as long as the network, its contents from call to call are not.  See nlc_cache_size */
     nlc_parallel_callback parallel_for; /* for sweeps and solves; NULL: the calling thread does everything.  The results are the same */
     void *parallel_context;  /*     bits whatever it does; below some 10,000 contacts threads have nothing to share */
+    int64_t owned_particles; /* the particles that are no ghosts, the first ones; 0: all */
+    nlc_exchange_callback exchange; /* both or none */
+    nlc_reduce_callback reduce;
+    void *context;           /* for the callbacks */
 } nlc_options;
 
 /*
@@ -610,7 +658,7 @@ NLC_API size_t nlc_network_size(const nlc_particles *particles, int64_t contact_
  * info            or NULL
  *
  * Returns NLC_OK; NLC_ERROR_NULL, _NULL_FIELD, _STRUCT_SIZE, _RESERVED, _COUNT, _STRIDE, _MEMORY_SIZE, _ALIGNMENT, _MODEL,
- * _METHOD, _OPTION, _RADIUS, _MATERIAL, _YOUNG, _POISSON, _INDEX, _WALL_WALL, _RIGID_RIGID, _STIFFNESS, or
+ * _METHOD, _OPTION, _RADIUS, _MATERIAL, _YOUNG, _POISSON, _INDEX, _WALL_WALL, _RIGID_RIGID, _STIFFNESS, _GHOST, or
  * _RANGE where a stiffness or a coupling coefficient is beyond the range of double.
  * On error memory and *network are untouched, so that a network already living there stays valid.
  */
@@ -624,7 +672,8 @@ NLC_API nlc_status nlc_network_init(nlc_network **network, void *memory, size_t 
  * network    from nlc_network_init
  * options    or NULL for the defaults; options->stiffness is [contacts]
  * info       or NULL
- * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _RESERVED, _NETWORK, _MODEL, _METHOD, _OPTION, _ALIGNMENT, _STIFFNESS, _RANGE.
+ * Returns NLC_OK; NLC_ERROR_NULL, _NULL_FIELD, _STRUCT_SIZE, _RESERVED, _NETWORK, _MODEL, _METHOD, _OPTION, _ALIGNMENT,
+ * _STIFFNESS, _GHOST, _RANGE.
  */
 NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *options, nlc_info *info);
 
@@ -702,8 +751,17 @@ NLC_API size_t nlc_cache_size(const nlc_network *network);
  * Exchanging i and j of a contact with its normal reversed changes no bit of the results; reordering the contacts changes
  * the last bits.
  *
+ * Networks shared out among ranks are solved in one piece: nothing is left out of the iteration, no region is solved for first, and
+ * starts of contacts that push each other open may find another one of several solutions.  Status, sweeps,
+ * residual, the bounds of lambda and the counts in info are those of the whole; an index in info is told by the rank
+ * that has it, and is -1 on the others.  The callback exchange is called once a sweep, and besides to begin, to judge and to end:
+ *     4 times in all for a start that is the solution already, else up to 12 times more than there are sweeps;
+ *     up to 17 times more each time that lambda near 1 has to be bounded closely;
+ *     20 times a sweep where the coupling is weakened; twice a sweep by NLC_METHOD_FIXED_POINT.
+ *
  * Returns NLC_OK; NLC_WARNING_NOT_CONVERGED, _WEAKENED, _ROUNDING, _CLOSE, or several of them added;
- * NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _OVERLAP, _NORMAL, _NONLOCAL, _COINCIDENT, _RANGE.
+ * NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _OVERLAP, _NORMAL, _NONLOCAL, _COINCIDENT, _RANGE; on ranks _OPTION (theirs differ),
+ * _REMOTE, _CALLBACK.
  */
 NLC_API nlc_status nlc_solve(nlc_network *network, double *NLC_RESTRICT force, double *NLC_RESTRICT nonlocal,
                              const double *NLC_RESTRICT overlap, const double *NLC_RESTRICT normal, nlc_info *info);
@@ -741,7 +799,7 @@ NLC_API nlc_status nlc_predict(double *NLC_RESTRICT nonlocal, double *NLC_RESTRI
  * info           or NULL
  * In models in which the circles of contact count their radii are those of the forces, at most that of the smaller particle.
  * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _OVERLAP, _NORMAL, _NONLOCAL (displacement), _FORCE, _COINCIDENT,
- * _RANGE.
+ * _RANGE; on ranks, where sides on ghosts get what their owners find, _OPTION, _REMOTE, _CALLBACK.
  */
 NLC_API nlc_status nlc_sweep(nlc_network *network, double *NLC_RESTRICT displacement, const double *NLC_RESTRICT force,
                              const double *NLC_RESTRICT overlap, const double *NLC_RESTRICT normal, nlc_info *info);
@@ -763,7 +821,7 @@ NLC_API nlc_status nlc_sweep(nlc_network *network, double *NLC_RESTRICT displace
  * NLC_WARNING_NOT_CONVERGED.
  * NLC_MODEL_LOVE and NLC_MODEL_HALF_SPACE at deformed contact points have no energy: NLC_ERROR_NO_POTENTIAL.
  * Returns NLC_OK; NLC_WARNING_NOT_CONVERGED; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _NO_POTENTIAL, _FORCE, _OVERLAP, _NORMAL,
- * _COINCIDENT, _RANGE.
+ * _COINCIDENT, _RANGE; on ranks, where it is the energy of them all, _OPTION, _REMOTE, _CALLBACK.
  */
 NLC_API nlc_status nlc_energy(nlc_network *network, double *NLC_RESTRICT energy, const double *NLC_RESTRICT force,
                               const double *NLC_RESTRICT overlap, const double *NLC_RESTRICT normal, nlc_info *info);
@@ -781,7 +839,7 @@ NLC_API nlc_status nlc_energy(nlc_network *network, double *NLC_RESTRICT energy,
  * Solved by conjugate gradients to a residual of a tenth of the tolerance.  NLC_ERROR_UNSTABLE: the state is beyond the end of
  * the stable branch, noticed only if doverlap excites the unstable mode; nlc_tangent_bound notices it always.
  * Returns NLC_OK; NLC_WARNING_NOT_CONVERGED; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _NO_POTENTIAL, _OVERLAP (doverlap), _FORCE,
- * _NORMAL, _COINCIDENT, _RANGE, _UNSTABLE.
+ * _NORMAL, _COINCIDENT, _RANGE, _UNSTABLE; on ranks _OPTION, _REMOTE, _CALLBACK.
  */
 NLC_API nlc_status nlc_tangent(nlc_network *network, double *NLC_RESTRICT dforce, const double *NLC_RESTRICT doverlap,
                                const double *NLC_RESTRICT force, const double *NLC_RESTRICT normal, nlc_info *info);
@@ -792,7 +850,8 @@ NLC_API nlc_status nlc_tangent(nlc_network *network, double *NLC_RESTRICT dforce
  * doverlap    [contacts] out [m]; 0 where P = 0
  * dforce      [contacts] any finite values [N]; taken as 0 where P = 0
  * network, force, normal, info   as for nlc_tangent
- * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _NO_POTENTIAL, _FORCE (force or dforce), _NORMAL, _COINCIDENT, _RANGE.
+ * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _NO_POTENTIAL, _FORCE (force or dforce), _NORMAL, _COINCIDENT, _RANGE;
+ * on ranks _OPTION, _REMOTE, _CALLBACK.
  */
 NLC_API nlc_status nlc_tangent_inverse(nlc_network *network, double *NLC_RESTRICT doverlap, const double *NLC_RESTRICT dforce,
                                        const double *NLC_RESTRICT force, const double *NLC_RESTRICT normal, nlc_info *info);
@@ -807,7 +866,7 @@ NLC_API nlc_status nlc_tangent_inverse(nlc_network *network, double *NLC_RESTRIC
  * normal       [contacts][3] as for nlc_solve
  * info         or NULL: lambda_upper, critical_particle, blocks
  * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _NO_POTENTIAL, _FORCE, _NORMAL, _RANGE, _UNSTABLE (not proved to be
- * stable).
+ * stable); on ranks, where that of ghosts is 0, _OPTION, _REMOTE, _CALLBACK.
  */
 NLC_API nlc_status nlc_tangent_bound(nlc_network *network, double *NLC_RESTRICT stiffness, const double *NLC_RESTRICT force,
                                      const double *NLC_RESTRICT normal, nlc_info *info);
@@ -823,7 +882,7 @@ NLC_API nlc_status nlc_tangent_bound(nlc_network *network, double *NLC_RESTRICT 
  * normal     [contacts][3] as for nlc_solve
  * info       or NULL
  * A particle's contact with itself (i = j) adds nothing.  Exchanging i and j of a contact with its normal reversed changes
- * no bit.  NLC_ERROR_RANGE: the sum of all magnitudes might exceed the range of double.
+ * no bit.  On ranks ghosts get what the contacts here add: their owners have all of it.  NLC_ERROR_RANGE: the sum of all magnitudes might exceed the range of double.
  * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _STRIDE, _FORCE, _NORMAL, _TOTAL_FORCE, _RANGE.
  */
 NLC_API nlc_status nlc_assemble(const nlc_network *network, double *NLC_RESTRICT F, ptrdiff_t F_stride,
@@ -1001,6 +1060,8 @@ NLC_API nlc_status nlc_contacts_from_lists(int64_t *NLC_RESTRICT count, int32_t 
  * displacement   [particles] out: b_k [m]; or NULL
  * force          [contacts] P >= 0 of nlc_solve [N]
  * info           or NULL: critical_particle, where b_k is largest
+ *
+ * On ranks ghosts have 0, and what counts is the largest reach of all.
  *
  * Promised: the forces of nlc_solve solve the equations of a longer list as well, which has any other pairs with
  * gaps of at least b_i + b_j, or b_i at walls: those stay open.  Not promised: anything about forces yet to come.  As they grow

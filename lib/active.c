@@ -144,6 +144,7 @@ void nlc_build_part(nlc_network *n, const int64_t *origin, int64_t count, const 
         p->largest[p->particle_count + w] = 0;
     }
     p->body_count += p->particle_count;
+    p->owned = p->particle_count;
     nlc_build_adjacency(p);
 }
 

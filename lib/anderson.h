@@ -20,10 +20,20 @@ typedef struct nlc_anderson {
     double smallest;        /* sum of squares of the smallest residual so far; for the caller */
     double step;            /* of the plain iteration, before there are differences */
     double most;            /* no component of x grows beyond */
+    nlc_network *n;
+    int per_contact;        /* numbers in the vectors */
+    bool met;               /* products of all ranks are at hand: */
+    double A[NLC_COLUMNS][NLC_COLUMNS], s[NLC_COLUMNS], squares[NLC_COLUMNS]; /* of df, of df with r, of dx */
 } nlc_anderson;
 
-/* The columns lie in the memory of the network's directions: 10 of vectors as long as there are contacts, or 5 twice as long. */
-void nlc_anderson_start(nlc_anderson *h, nlc_network *network, int64_t length, double *old_x, double *old_r, double most);
+/* The columns lie in the memory of the network's directions: 10 of vectors with one number a contact, or 5 with two. */
+void nlc_anderson_start(nlc_anderson *h, nlc_network *network, int per_contact, double *old_x, double *old_r, double most);
+
+/*
+ * Where the network is shared: all products of the next step, and norm, the sum of the squares of r here, of all ranks; to be called
+ * in each step, before the others.
+ */
+void nlc_anderson_meet(nlc_anderson *h, const double *x, const double *r, double *norm);
 
 /* Forgets what was. */
 void nlc_anderson_reset(nlc_anderson *h, double step);

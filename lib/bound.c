@@ -3,6 +3,7 @@
 #include "bound.h"
 
 #include "block.h"
+#include "collective.h"
 #include "parallel.h"
 
 /* No side gets less: a share near zero would make its particle's block huge. */
@@ -73,23 +74,30 @@ typedef struct job {
 static void mark_task(void *work, int64_t w)
 {
     const job *m = work;
-    mark_above(m->n, m->normal, m->beta, w * NLC_WINDOW, nlc_end_of(w, NLC_WINDOW, m->n->particle_count));
+    mark_above(m->n, m->normal, m->beta, w * NLC_WINDOW, nlc_end_of(w, NLC_WINDOW, m->n->owned));
 }
 
-bool nlc_bound_below(nlc_network *n, const double *normal, double beta, nlc_bound *result)
+/* Of the particles here; where is one of which it is not so. */
+static bool all_below(nlc_network *n, const double *normal, double beta, nlc_bound *result)
 {
     job all = {n, normal, beta};
-    first_shares(n);
-    set_roots(n);
     if (n->settings.parallel_for) nlc_for(n, mark_task, &all, nlc_windows(n));
     for (int64_t w = 0; w < nlc_windows(n); w++) {
         if (!n->settings.parallel_for) mark_task(&all, w); /* the first one above ends it */
-        for (int64_t k = w * NLC_WINDOW; k < nlc_end_of(w, NLC_WINDOW, n->particle_count); k++) {
+        for (int64_t k = w * NLC_WINDOW; k < nlc_end_of(w, NLC_WINDOW, n->owned); k++) {
             if (is_below(n, normal, k, beta, result)) continue;
             result->where = k;
             return false;
         }
     }
+    return true;
+}
+
+bool nlc_bound_below(nlc_network *n, const double *normal, double beta, nlc_bound *result)
+{
+    first_shares(n);
+    set_roots(n);
+    if (nlc_on_any_rank(n, !all_below(n, normal, beta, result))) return false;
     result->upper = beta;
     return true;
 }
@@ -138,7 +146,7 @@ void nlc_bound_balance(nlc_network *n, const double *normal, int passes, double 
     }
     for (int pass = 0;; pass++) {
         result->upper = 0;
-        for (int64_t k = 0; k < n->particle_count; k++) {
+        for (int64_t k = 0; k < n->owned; k++) {
             if (n->changed[k]) n->bound[k] = bound_of(n, normal, k, result);
             n->changed[k] = 0;
             n->growth[k] = 1;
@@ -146,7 +154,9 @@ void nlc_bound_balance(nlc_network *n, const double *normal, int passes, double 
             result->upper = n->bound[k];
             result->where = k;
         }
-        if (result->upper <= enough || pass == passes) return;
+        nlc_exchange_particles(n, n->bound);
+        result->upper = nlc_largest_over_ranks(n, result->upper, &result->where);
+        if (result->upper <= enough || pass == passes || n->ranks.over) return;
         move_shares(n);
     }
 }
@@ -155,7 +165,7 @@ void nlc_bound_particles(nlc_network *n, const double *normal, nlc_bound *result
 {
     first_shares(n);
     result->upper = 0;
-    for (int64_t k = 0; k < n->particle_count; k++) {
+    for (int64_t k = 0; k < n->owned; k++) {
         n->bound[k] = 0;
         if (!couples(n, k)) continue;
         result->blocks++;
@@ -167,5 +177,7 @@ void nlc_bound_particles(nlc_network *n, const double *normal, nlc_bound *result
         result->upper = n->bound[k];
         result->where = k;
     }
+    nlc_exchange_particles(n, n->bound);
+    result->upper = nlc_largest_over_ranks(n, result->upper, &result->where);
     if (result->upper >= 1) nlc_bound_balance(n, normal, 16, 1 - 1e-6, result);
 }

@@ -93,7 +93,7 @@ static double largest_reduced(const nlc_network *n, const double *overlap)
 bool nlc_circles_overlap(const nlc_network *n, const double *overlap, const double *normal)
 {
     const double x = largest_reduced(n, overlap);
-    for (int64_t k = 0; k < n->particle_count; k++) {
+    for (int64_t k = 0; k < n->owned; k++) {
         const bool apart = x < 0.249 * n->closest[k] * n->radius[k];
         if (n->scale[k] > 0 && !apart && overlap_on(n, k, overlap, normal)) return true;
     }

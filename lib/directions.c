@@ -5,6 +5,7 @@
  * All passes go over chunks that stay in the cache, and sums are taken in four lanes, chunk by chunk and slab by slab: always in the
  * same order, in one that compilers make vectors of and that threads may share.
  */
+#include "collective.h"
 #include "iteration.h"
 #include "parallel.h"
 
@@ -110,6 +111,25 @@ static void evaluate_task(void *work, int64_t slab)
     EACH_CHUNK(q, slab, from, count) evaluate_chunk(q, from, (int)count, piece);
 }
 
+/* Contacts that are on two ranks count half on each: of M or K. */
+static void halve_straddling(const nlc_iteration *q, nlc_small A, bool images)
+{
+    const nlc_network *n = q->n;
+    for (int64_t s = 0; s < n->straddling; s++) {
+        const int64_t at = nlc_straddling(n)[s];
+        double z, inverse, force;
+        nlc_extremes e = {0, 0, false};
+        residual(q, at, &z, &inverse, &force, &e);
+        if (e.far) inverse = far_inverse(q, at);
+        for (int a = 0; a < q->directions; a++)
+            for (int b = 0; b <= a; b++) {
+                const double by = images ? n->image[b > 0 ? a : 0][at] : inverse * n->direction[a][at];
+                A[a][b] -= 0.5 * by * n->direction[images && b == 0 ? a : b][at];
+                A[b][a] = A[a][b];
+            }
+    }
+}
+
 void nlc_evaluate(nlc_iteration *q)
 {
     q->largest_residual = q->largest_force = 0;
@@ -120,6 +140,7 @@ void nlc_evaluate(nlc_iteration *q)
         q->largest_force = piece->force > q->largest_force ? piece->force : q->largest_force;
     }
     add_up(q, q->M);
+    halve_straddling(q, q->M, false);
 }
 
 static void products_task(void *work, int64_t slab)
@@ -137,6 +158,26 @@ void nlc_stiffness_products(nlc_iteration *q)
 {
     nlc_for(q->n, products_task, q, nlc_slabs(q->n));
     add_up(q, q->K);
+    halve_straddling(q, q->K, true);
+}
+
+bool nlc_products_over_ranks(nlc_iteration *q)
+{
+    double sums[NLC_DIRECTIONS * (NLC_DIRECTIONS + 1)];
+    int count = 0;
+    for (int a = 0; a < q->directions; a++)
+        for (int b = 0; b <= a; b++) {
+            sums[count++] = q->M[a][b];
+            sums[count++] = q->K[a][b];
+        }
+    if (!nlc_sum_over_ranks(q->n, sums, count)) return false;
+    count = 0;
+    for (int a = 0; a < q->directions; a++)
+        for (int b = 0; b <= a; b++) {
+            q->M[a][b] = q->M[b][a] = sums[count++];
+            q->K[a][b] = q->K[b][a] = sums[count++];
+        }
+    return true;
 }
 
 void nlc_choose_step(nlc_iteration *q)

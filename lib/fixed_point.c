@@ -11,6 +11,7 @@
 #include <float.h>
 #include <string.h>
 
+#include "collective.h"
 #include "contact.h"
 
 #define FIRST_RATE 0.9            /* before a rate has been seen */
@@ -58,6 +59,11 @@ static void update_forces(nlc_network *n, const double *overlap, double cap, sta
             s->worst = c;
         }
     }
+    double top[2] = {s->change, s->highest};
+    nlc_max_over_ranks(n, top, 2);
+    if (top[0] > s->change) s->worst = -1;
+    s->change = top[0];
+    s->highest = top[1];
 }
 
 static void keep_displacements(nlc_network *n, const double *overlap, double cap)
@@ -98,7 +104,7 @@ static void finish(nlc_outcome *out, nlc_status status, double residual, int64_t
 
 void nlc_fixed_point(nlc_network *n, const double *overlap, const double *normal, nlc_outcome *out)
 {
-    const double runaway = RUNAWAY * nlc_largest_magnitude(overlap, n->contact_count);
+    const double runaway = RUNAWAY * (nlc_is_shared(n) ? n->ranks.overlap : nlc_largest_magnitude(overlap, n->contact_count));
     state s = {.rate = {FIRST_RATE, FIRST_RATE, FIRST_RATE}, .smallest = INFINITY};
     const bool places = n->settings.model->shape == NLC_SHAPE_PLACE;
     nlc_set_units(n, 0, 0);
@@ -110,7 +116,9 @@ void nlc_fixed_point(nlc_network *n, const double *overlap, const double *normal
         nlc_status status = nlc_displace(n, NLC_OF_FORCES, n->force, normal, &out->info.culprit);
         if (status != NLC_OK) return finish(out, status, 0, -1);
         s.last_change = s.change;
+        nlc_exchange_particles(n, n->largest);
         update_forces(n, overlap, runaway, &s);
+        if (nlc_is_over(n, out)) return;
         double error = remaining(&s, sweeps);
         if (s.change < s.smallest) {
             s.smallest = s.change;

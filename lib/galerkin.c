@@ -16,6 +16,7 @@
  * exceeded by up to 1.4 on crystals, packings and clusters.
  */
 #include "bound.h"
+#include "collective.h"
 #include "iteration.h"
 
 #define ALL_FROM 0.35     /* Ritz value from which all directions are kept */
@@ -47,6 +48,7 @@ typedef struct progress {
     bool exact;      /* the displacements are those of the iterate, not of the last state and what changed since then */
     double refresh;  /* residual, relative to the largest force, at which they are computed anew */
     int since;       /* steps since they were */
+    bool first, repelled; /* when they were: the start, and whether it is one to be mended */
 } progress;
 
 static bool sweep(nlc_iteration *q, nlc_response response, const double *force, double *displacement, nlc_outcome *out)
@@ -57,6 +59,19 @@ static bool sweep(nlc_iteration *q, nlc_response response, const double *force, 
     if (out->status != NLC_OK) return false;
     const double *side = n->side;
     for (int64_t c = 0; c < n->contact_count; c++) displacement[c] = side[2 * c] + side[2 * c + 1];
+    return true;
+}
+
+/* The residual, and its largest of all ranks; false: an error. */
+static bool evaluate(nlc_iteration *q, progress *s, nlc_outcome *out)
+{
+    nlc_evaluate(q);
+    double largest[3] = {q->largest_residual, q->largest_force, s->repelled};
+    nlc_max_over_ranks(q->n, largest, 3);
+    if (nlc_is_over(q->n, out)) return false;
+    q->largest_residual = largest[0];
+    q->largest_force = largest[1];
+    s->repelled = largest[2] > 0;
     return true;
 }
 
@@ -85,6 +100,7 @@ static verdict certify(nlc_iteration *q, double beta, nlc_outcome *out)
     out->info.blocks += bound.blocks;
     out->info.lambda_upper = bound.upper;
     out->info.critical_particle = bound.where;
+    if (nlc_is_over(q->n, out)) return DONE;
     return good ? DONE : beyond ? BEYOND : GO_ON;
 }
 
@@ -95,7 +111,7 @@ static bool too_near(nlc_iteration *q, nlc_outcome *out)
     set_slopes(q);
     nlc_bound_balance(q->n, q->normal, NLC_BALANCE_PASSES, 1 - NLC_MARGIN, &bound);
     out->info.blocks += bound.blocks;
-    return bound.upper > 1 - NLC_MARGIN + 0.001;
+    return !nlc_is_over(q->n, out) && bound.upper > 1 - NLC_MARGIN + 0.001;
 }
 
 /* How far the iterate is from the end. */
@@ -113,6 +129,7 @@ static verdict judge(nlc_iteration *q, progress *s, nlc_outcome *out)
         const double energy = nlc_energy_residual(q);
         s->ratio = energy > s->ratio ? energy : s->ratio;
     }
+    if (nlc_is_over(q->n, out)) return DONE;
     s->stalled = s->ratio < 0.5 * s->best ? 0 : s->stalled + (s->ratio < ROUNDING);
     s->best = s->ratio < s->best ? s->ratio : s->best;
     if (NLC_SAFETY * s->ratio <= tolerance) {
@@ -143,7 +160,7 @@ static void shorten(nlc_iteration *q)
         step[c] = 0;
         for (int d = 0; d < q->directions; d++) step[c] += q->step[d] * q->n->direction[d][c];
     }
-    if (is_short(q, step)) return;
+    if (!nlc_on_any_rank(q->n, !is_short(q, step))) return;
     nlc_force_scales(q, true);
     double longest = nlc_relative_size(q, step, &where);
     if (longest > LONGEST_STEP * SHORTEST) longest = LONGEST_STEP * SHORTEST;
@@ -156,6 +173,8 @@ static bool advance(nlc_iteration *q, progress *s, nlc_outcome *out)
     const double before = q->largest_residual;
     if (!sweep(q, NLC_OF_CHANGES, q->n->direction[0], q->n->image[0], out)) return false;
     nlc_stiffness_products(q);
+    nlc_products_over_ranks(q);
+    if (nlc_is_over(q->n, out)) return false;
     nlc_choose_step(q);
     if (before > 0.05 * q->largest_force) shorten(q);
     const bool near = s->settled && before < NEAR * q->largest_force;
@@ -179,7 +198,8 @@ static bool refresh(nlc_iteration *q, progress *s, nlc_outcome *out)
     else if (!sweep(q, NLC_OF_STATE, q->n->force, q->n->current, out)) return false;
     s->exact = true;
     s->since = 0;
-    nlc_evaluate(q);
+    s->repelled = s->first && nlc_is_repelled(q);
+    if (!evaluate(q, s, out)) return false;
     const double r = nlc_ratio(q->largest_residual, q->largest_force), enough = LINEAR_ENOUGH * q->n->settings.tolerance;
     s->refresh = LINEAR * (r < 1 ? r * sqrt(r) : 1);
     if (s->refresh < enough) s->refresh = enough;
@@ -191,12 +211,13 @@ static bool refresh(nlc_iteration *q, progress *s, nlc_outcome *out)
 static verdict iterate(nlc_iteration *q, progress *s, nlc_outcome *out)
 {
     if (!refresh(q, s, out)) return DONE;
-    if (nlc_is_repelled(q)) {
+    s->first = false;
+    if (s->repelled) {
         nlc_relax(q);
         if (!refresh(q, s, out)) return DONE;
     }
     for (bool first = true;; first = false) {
-        if (!first) nlc_evaluate(q);
+        if (!first && !evaluate(q, s, out)) return DONE;
         if (!s->exact && (q->largest_residual <= s->refresh * q->largest_force || s->since >= LINEAR_STEPS) && !refresh(q, s, out))
             return DONE;
         const verdict v = s->exact ? judge(q, s, out) : GO_ON;
@@ -214,7 +235,7 @@ static verdict iterate(nlc_iteration *q, progress *s, nlc_outcome *out)
 static void solve(nlc_network *n, const double *overlap, const double *normal, double part, nlc_outcome *out)
 {
     nlc_iteration q;
-    progress s = {.ratio = 1e10, .best = INFINITY, .where = -1, .begun = out->info.sweeps};
+    progress s = {.ratio = 1e10, .best = INFINITY, .where = -1, .begun = out->info.sweeps, .first = true};
     nlc_iteration_start(&q, n, overlap, normal, part);
     const verdict v = iterate(&q, &s, out);
     if (out->status < 0) return;
@@ -225,6 +246,7 @@ static void solve(nlc_network *n, const double *overlap, const double *normal, d
         nlc_force_scales(&q, false);
         out->info.residual = nlc_relative_size(&q, n->direction[0], &out->info.worst_contact);
         out->status = NLC_WARNING_NOT_CONVERGED;
+        if (nlc_is_over(n, out)) return;
     }
     if (v == ROUNDED) out->status = NLC_WARNING_ROUNDING;
     if (v == BEYOND) nlc_weaken(&q, out);
@@ -238,7 +260,7 @@ static void solve(nlc_network *n, const double *overlap, const double *normal, d
 void nlc_galerkin(nlc_network *n, const double *overlap, const double *normal, nlc_outcome *out)
 {
     const int64_t most = n->settings.max_sweeps;
-    const bool cold = nlc_largest_magnitude(n->current, n->contact_count) <= 0;
+    const bool cold = nlc_is_shared(n) ? n->ranks.nonlocal <= 0 : nlc_largest_magnitude(n->current, n->contact_count) <= 0;
     for (int attempt = cold; attempt < 2; attempt++) {
         solve(n, overlap, normal, 1, out);
         if (out->status != NLC_WARNING_NOT_CONVERGED || out->info.sweeps >= most) return;

@@ -63,10 +63,12 @@ struct nlc_extremes {
 };
 #define NLC_FAR 8
 
-/* directions.c: residual z of [GC] 10 into direction[0], its largest, and M. */
+/* directions.c: residual z of [GC] 10 into direction[0], its largest, and M: here, on this rank. */
 void nlc_evaluate(nlc_iteration *q);
 /* K from the images, C times the directions. */
 void nlc_stiffness_products(nlc_iteration *q);
+/* M and K of all ranks, from those of this one. */
+bool nlc_products_over_ranks(nlc_iteration *q);
 /* The step that makes the residual vanish in the space of the directions. */
 void nlc_choose_step(nlc_iteration *q);
 /* Takes it; keeps the last step, or (all) the last two and two Ritz vectors, as directions. */

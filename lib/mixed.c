@@ -12,6 +12,7 @@
 
 #include "anderson.h"
 #include "bound.h"
+#include "collective.h"
 #include "contact.h"
 #include "iteration.h"
 
@@ -21,6 +22,7 @@
 #define GROWTH 4.0 /* of the residual: then back to the best, with shorter steps */
 #define STEPS 150
 #define HOPELESS 1e3 /* residual relative to the overlaps */
+#define ROUNDING 1e-15
 
 typedef struct vectors {
     int64_t length;
@@ -47,8 +49,27 @@ static void start(const nlc_iteration *q, vectors *v)
         for (int64_t c = 0; c < v->length; c++) v->x[c] = nlc_scaled_overlap(q, c);
 }
 
+/*
+ * The largest change of a force (in n->slope), relative to the largest force nearby.  On ranks, which would have to tell each other
+ * these forces, relative to the largest of all, while that is too much.
+ */
+static double largest_change(nlc_iteration *q, nlc_outcome *out)
+{
+    nlc_network *n = q->n;
+    if (nlc_is_shared(n) && out->info.sweeps < n->settings.max_sweeps) {
+        double top[2] = {nlc_largest_magnitude(n->slope, n->contact_count), nlc_largest_magnitude(n->force, n->contact_count)};
+        top[1] += top[0];
+        nlc_max_over_ranks(n, top, 2);
+        const double overall = nlc_ratio(top[0], top[1]);
+        out->info.worst_contact = -1;
+        if (overall > n->settings.tolerance && overall > ROUNDING) return overall;
+    }
+    nlc_force_scales(q, true);
+    return nlc_relative_size(q, n->slope, &out->info.worst_contact);
+}
+
 /* One sweep at x: y becomes the residual; the sum of its squares.  The largest change of a force into *change. */
-static double evaluate(nlc_iteration *q, vectors *v, double *change, nlc_outcome *out)
+static double evaluate(nlc_iteration *q, vectors *v, nlc_anderson *h, double *change, nlc_outcome *out)
 {
     nlc_network *n = q->n;
     double norm = 0;
@@ -61,14 +82,15 @@ static double evaluate(nlc_iteration *q, vectors *v, double *change, nlc_outcome
         n->current[c] = n->side[2 * c] + n->side[2 * c + 1];
         n->slope[c] = nlc_scaled_force(q, c) - n->force[c];
     }
-    nlc_force_scales(q, true);
-    *change = nlc_relative_size(q, n->slope, &out->info.worst_contact);
     for (int64_t k = 0; k < v->length; k++) {
         v->y[k] = (v->sides ? n->side[k] : nlc_scaled_overlap(q, k)) - v->x[k];
         if (!v->sides && v->x[k] <= 0 && v->x[k] + v->y[k] <= 0) v->y[k] = 0; /* how far it is open makes no difference */
     }
     for (int64_t k = 0; k + 1 < v->length; k += 2) norm += v->y[k] * v->y[k] + v->y[k + 1] * v->y[k + 1]; /* as in anderson.c */
     if (v->length % 2) norm += v->y[v->length - 1] * v->y[v->length - 1];
+    nlc_anderson_meet(h, v->x, v->y, &norm);
+    *change = largest_change(q, out);
+    nlc_is_over(n, out);
     return norm;
 }
 
@@ -82,6 +104,7 @@ static bool is_stable(nlc_iteration *q, nlc_outcome *out)
     if (!good) nlc_bound_balance(q->n, q->normal, NLC_BALANCE_PASSES, 1 - NLC_MARGIN, &bound);
     out->info.blocks += bound.blocks;
     out->info.critical_particle = bound.where;
+    if (nlc_is_over(q->n, out)) return true;
     return good || bound.upper <= 1 - NLC_MARGIN;
 }
 
@@ -91,21 +114,26 @@ static bool iterate(nlc_iteration *q, vectors *v, nlc_outcome *out)
     nlc_network *n = q->n;
     double applied = 0; /* sum of the squares of the overlaps */
     nlc_anderson h;
-    nlc_anderson_start(&h, n, v->length, n->lanczos[0], n->lanczos[2], NLC_FARTHEST);
+    nlc_anderson_start(&h, n, v->sides ? 2 : 1, n->lanczos[0], n->lanczos[2], NLC_FARTHEST);
     nlc_anderson_reset(&h, FIRST_STEP);
     for (int64_t c = 0; c < n->contact_count; c++) applied += plus(q->overlap[c] * q->load) * plus(q->overlap[c] * q->load);
+    for (int64_t s = 0; s < n->straddling; s++) {
+        const double x = plus(q->overlap[nlc_straddling(n)[s]] * q->load);
+        applied -= 0.5 * x * x;
+    }
+    nlc_sum_over_ranks(n, &applied, 1);
     for (int k = 0; k < STEPS; k++) {
         double change = 0;
-        const double norm = evaluate(q, v, &change, out);
+        const double norm = evaluate(q, v, &h, &change, out);
         if (out->status < 0) return true;
-        if (k == 0 && v->sides && nlc_is_repelled(q)) {
+        if (k == 0 && v->sides && nlc_on_any_rank(n, nlc_is_repelled(q))) {
             nlc_relax(q); /* by point forces on the undeformed sphere */
             start(q, v);
             continue;
         }
         out->info.residual = SAFETY * change * nlc_anderson_amplification(&h);
         if (out->info.residual <= n->settings.tolerance && (k > 0 || change <= 0)) return is_stable(q, out);
-        if (change <= 1e-15 && k > 3) {
+        if (change <= ROUNDING && k > 3) {
             out->status = NLC_WARNING_ROUNDING;
             return is_stable(q, out);
         }
@@ -145,6 +173,7 @@ void nlc_mixed(nlc_network *n, const double *overlap, const double *normal, nlc_
         for (int64_t e = 0; e < 2 * n->contact_count; e++) n->own[e] = 0;
         out->status = NLC_OK;
         nlc_weaken(&q, out);
+        if (out->status < 0) return;
         if (v.sides && out->status == NLC_OK) { /* nothing to be weakened, and so the solution of other equations */
             out->status = NLC_WARNING_NOT_CONVERGED;
             out->info.residual = INFINITY;

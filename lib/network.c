@@ -4,6 +4,7 @@
 
 #include "active.h"
 #include "bodies.h"
+#include "collective.h"
 #include "parallel.h"
 #include "particles.h"
 #include "structs.h"
@@ -95,7 +96,7 @@ static size_t lay_out(nlc_network *n, char *memory)
 static nlc_status measure(nlc_network *n, const nlc_particles *p, int64_t contact_count, size_t *size)
 {
     memset(n, 0, sizeof *n);
-    n->particle_count = p->count;
+    n->particle_count = n->owned = p->count;
     n->body_count = p->count + p->wall_count;
     n->contact_count = contact_count;
     n->material_count = p->material_count;
@@ -151,7 +152,8 @@ static nlc_status check_all(nlc_network *n, nlc_settings *settings, const nlc_pa
 {
     nlc_status status = nlc_read_settings(settings, o, culprit);
     if (status != NLC_OK) return status;
-    return nlc_check_bodies(n, settings, p, i, j, o->stiffness, culprit);
+    if ((status = nlc_check_bodies(n, settings, p, i, j, o->stiffness, culprit)) != NLC_OK) return status;
+    return nlc_check_ghosts(settings, p->count, i, j, n->contact_count, culprit);
 }
 
 nlc_status nlc_network_init(nlc_network **network, void *memory, size_t memory_size, const nlc_particles *particles,

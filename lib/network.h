@@ -29,6 +29,10 @@ typedef struct nlc_settings {
     size_t cache_size;
     nlc_parallel_callback parallel_for; /* NULL: none */
     void *parallel_context;
+    int64_t owned_particles;
+    nlc_exchange_callback exchange; /* NULL: not shared */
+    nlc_reduce_callback reduce;
+    void *context;
 } nlc_settings;
 
 /* What is found of one slab or window of a loop, see parallel.h. */
@@ -38,10 +42,22 @@ typedef struct nlc_piece {
     int64_t bad; /* particle */
 } nlc_piece;
 
+/* What a network that is shared out among ranks has to know of them, see collective.h. */
+typedef struct nlc_ranks {
+    int turn;          /* the callback that comes next */
+    bool over;         /* all ranks know of an error */
+    nlc_status status; /* of this rank */
+    int64_t culprit;
+    double overlap, stiffness, nonlocal; /* largest magnitudes on any rank */
+} nlc_ranks;
+
 struct nlc_network {
     uint64_t magic;
     int64_t particle_count, body_count, contact_count, material_count;
+    int64_t owned;      /* particles that are computed here; ghosts follow */
+    int64_t straddling; /* contacts with a ghost */
     nlc_settings settings;
+    nlc_ranks ranks;
     bool self_contacts;     /* some contact has i = j */
     bool connected;         /* all contacts are one cluster, see clusters.c */
     int scale_exponent;     /* no U reaches 2^ this */

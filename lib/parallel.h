@@ -20,12 +20,12 @@ static inline void nlc_for(const nlc_network *n, void (*task)(void *work, int64_
     for (int64_t k = 0; k < count; k++) task(work, k);
 }
 
-/* Particles go in windows, contacts in slabs. */
+/* Particles (no ghosts) go in windows, contacts in slabs. */
 #define NLC_SLAB 8192
 
 static inline int64_t nlc_windows(const nlc_network *n)
 {
-    return (n->particle_count + NLC_WINDOW - 1) / NLC_WINDOW;
+    return (n->owned + NLC_WINDOW - 1) / NLC_WINDOW;
 }
 
 static inline int64_t nlc_slabs(const nlc_network *n)

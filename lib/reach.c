@@ -32,7 +32,7 @@ static double largest_response(const nlc_settings *settings, const nlc_kernel *k
 static double displacement_of(const nlc_network *n, int64_t k, const double *force, double unit, int exponent)
 {
     double sum = 0;
-    if (!(n->scale[k] > 0)) return 0;
+    if (!(n->scale[k] > 0) || k >= n->owned) return 0;
     for (int64_t p = n->start[k]; p < n->start[k + 1]; p++) sum += unit * force[n->entry[p] >> 1];
     const nlc_scaled f = nlc_split(sum), u = nlc_split(n->scale[k]);
     const nlc_scaled response = nlc_split(largest_response(&n->settings, nlc_kernel_of(n, k)));

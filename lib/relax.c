@@ -6,6 +6,7 @@
  * each contact in turn gets the force that the law has for the displacements at hand, and they follow at once (Gauss and
  * Seidel).  The functional whose stationary point is sought falls with each of these changes where it is convex.
  */
+#include "collective.h"
 #include "iteration.h"
 
 #define PASSES 30
@@ -87,7 +88,7 @@ bool nlc_is_repelled(const nlc_iteration *q)
     return false;
 }
 
-void nlc_relax(nlc_iteration *q)
+static void relax(nlc_iteration *q)
 {
     nlc_network *n = q->n;
     begin_anew(q);
@@ -99,5 +100,21 @@ void nlc_relax(nlc_iteration *q)
             largest = n->force[c] > largest ? n->force[c] : largest;
         }
         if (most <= ENOUGH * largest) return;
+    }
+}
+
+/* Contacts on two ranks get the mean of the forces that both have found for them. */
+void nlc_relax(nlc_iteration *q)
+{
+    nlc_network *n = q->n;
+    relax(q);
+    for (int64_t s = 0; s < n->straddling; s++) {
+        const int64_t c = nlc_straddling(n)[s];
+        n->side[2 * c] = n->side[2 * c + 1] = n->force[c];
+    }
+    nlc_exchange_sides(n, n->side);
+    for (int64_t s = 0; s < n->straddling; s++) {
+        const int64_t c = nlc_straddling(n)[s];
+        n->force[c] = 0.5 * (n->side[2 * c] + n->side[2 * c + 1]);
     }
 }

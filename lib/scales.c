@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* scales.c - errors relative to the largest force nearby. */
+#include "collective.h"
 #include "iteration.h"
 
 /* Part of the residual's energy norm by which the error is at least estimated: see nlc_energy_residual. */
@@ -19,6 +20,7 @@ void nlc_force_scales(nlc_iteration *q, bool iterate_too)
         if (i < n->particle_count && p > n->largest[i]) n->largest[i] = p;
         if (j < n->particle_count && p > n->largest[j]) n->largest[j] = p;
     }
+    nlc_exchange_particles(n, n->largest);
 }
 
 double nlc_relative_size(const nlc_iteration *q, const double *values, int64_t *where)
@@ -32,13 +34,13 @@ double nlc_relative_size(const nlc_iteration *q, const double *values, int64_t *
         worst = nlc_ratio(size, scale);
         *where = c;
     }
-    return worst;
+    return nlc_largest_over_ranks(q->n, worst, where);
 }
 
 double nlc_energy_ratio(const nlc_network *n, const double *sum, const double *top)
 {
     double worst = 0;
-    for (int64_t k = 0; k < n->particle_count; k++) {
+    for (int64_t k = 0; k < n->owned; k++) {
         const double v = ENERGY * sqrt(sum[k] * top[k]);
         const double ratio = nlc_ratio(v, n->largest[k]);
         /* a particle without force has no scale of its own; its contacts have that of their other particle */
@@ -67,5 +69,7 @@ double nlc_energy_residual(nlc_iteration *q)
             if (slope > top[end[side]]) top[end[side]] = slope;
         }
     }
-    return nlc_energy_ratio(n, sum, top);
+    double worst = nlc_energy_ratio(n, sum, top);
+    nlc_max_over_ranks(n, &worst, 1);
+    return worst;
 }

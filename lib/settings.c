@@ -2,6 +2,7 @@
 /* settings.c - a network's options: checks, defaults, and what follows from them. */
 #include "network.h"
 
+#include "collective.h"
 #include "hertz.h"
 #include "structs.h"
 
@@ -33,6 +34,10 @@ nlc_status nlc_read_settings(nlc_settings *settings, const nlc_options *o, int64
     if (!o->cache && o->cache_size > 0) return NLC_ERROR_OPTION;
     *culprit = (int64_t)((uintptr_t)o->cache % sizeof(double));
     if (*culprit != 0) return NLC_ERROR_ALIGNMENT;
+    *culprit = offsetof(nlc_options, owned_particles);
+    if (o->owned_particles < 0) return NLC_ERROR_OPTION;
+    *culprit = o->exchange ? offsetof(nlc_options, reduce) : offsetof(nlc_options, exchange);
+    if (!o->exchange != !o->reduce) return NLC_ERROR_NULL_FIELD;
     *culprit = -1;
     const bool undeformed = o->model == NLC_MODEL_HALF_SPACE && o->points == NLC_POINTS_UNDEFORMED;
     settings->model = undeformed ? &nlc_half_space_undeformed : &nlc_models[o->model];
@@ -45,6 +50,10 @@ nlc_status nlc_read_settings(nlc_settings *settings, const nlc_options *o, int64
     settings->parallel_context = o->parallel_context;
     settings->cache = o->cache;
     settings->cache_size = o->cache_size;
+    settings->owned_particles = o->owned_particles;
+    settings->exchange = o->exchange;
+    settings->reduce = o->reduce;
+    settings->context = o->context;
     settings->prefactor = o->model == NLC_MODEL_HALF_SPACE && o->prefactor > 0 ? o->prefactor : 1;
     return NLC_OK;
 }
@@ -86,6 +95,7 @@ static void set_compliances(nlc_network *n)
 void nlc_apply_settings(nlc_network *n, const nlc_settings *settings, const double *stiffness)
 {
     n->settings = *settings;
+    nlc_list_straddling(n);
     n->coupling_exponent = n->scale_exponent + nlc_exponent_above(settings->prefactor) + 3;
     set_compliances(n);
     for (int64_t m = 0; m < n->material_count; m++)
@@ -117,6 +127,8 @@ nlc_status nlc_set_options(nlc_network *network, const nlc_options *options, nlc
     nlc_status status = nlc_read_options(&o, options);
     if (status != NLC_OK) return nlc_error(info, status, 1);
     if ((status = nlc_read_settings(&settings, &o, &culprit)) != NLC_OK) return nlc_error(info, status, culprit);
+    status = nlc_check_ghosts(&settings, network->particle_count, network->i, network->j, network->contact_count, &culprit);
+    if (status != NLC_OK) return nlc_error(info, status, culprit);
     if (!nlc_prefactor_in_range(network, &settings)) return nlc_error(info, NLC_ERROR_RANGE, -1);
     if ((status = check_stiffnesses(network, o.stiffness, &culprit)) != NLC_OK) return nlc_error(info, status, culprit);
     nlc_apply_settings(network, &settings, o.stiffness);

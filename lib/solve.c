@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "active.h"
+#include "collective.h"
 #include "structs.h"
 #include "vector.h"
 
@@ -11,14 +12,20 @@
 /* Largest stiffness times coupling times root of overlap, as a power of 2; about 1 in anything physical. */
 #define COUPLING 200
 
+/* Whether numbers of this size can be calculated with; culprit: they cannot. */
+static nlc_status check_range(double overlap, int stiffness_exponent, int coupling_exponent)
+{
+    const int e = nlc_exponent_above(overlap) + HEADROOM;
+    if (e > 1000 || stiffness_exponent + e + (e > 0 ? e / 2 + 1 : 0) > 1000) return NLC_ERROR_RANGE;
+    return coupling_exponent + stiffness_exponent + (e - HEADROOM) / 2 > COUPLING ? NLC_ERROR_RANGE : NLC_OK;
+}
+
 static nlc_status check(const nlc_network *n, const double *overlap, const double *normal, const double *nonlocal, int64_t *culprit)
 {
     if ((*culprit = nlc_first_not_finite(overlap, n->contact_count)) >= 0) return NLC_ERROR_OVERLAP;
     if ((*culprit = nlc_first_not_unit(normal, n->contact_count)) >= 0) return NLC_ERROR_NORMAL;
     if ((*culprit = nlc_first_not_finite(nonlocal, n->contact_count)) >= 0) return NLC_ERROR_NONLOCAL;
-    int e = nlc_exponent_above(nlc_largest_magnitude(overlap, n->contact_count)) + HEADROOM;
-    if (e > 1000 || n->stiffness_exponent + e + (e > 0 ? e / 2 + 1 : 0) > 1000) return NLC_ERROR_RANGE;
-    return n->coupling_exponent + n->stiffness_exponent + (e - HEADROOM) / 2 > COUPLING ? NLC_ERROR_RANGE : NLC_OK;
+    return check_range(nlc_largest_magnitude(overlap, n->contact_count), n->stiffness_exponent, n->coupling_exponent);
 }
 
 /* Largest overlap on each particle, 0 at least. */
@@ -51,12 +58,13 @@ static double start_of(const nlc_network *n, int64_t c, const double *overlap, c
 static void start_from(nlc_network *n, const double *overlap, const double *nonlocal)
 {
     bool capped = false;
-    largest_overlaps(n, overlap);
+    if (nlc_is_shared(n)) memcpy(n->largest, nlc_shared_overlaps(n), (size_t)n->body_count * sizeof *n->largest);
+    else largest_overlaps(n, overlap);
     for (int64_t c = 0; c < n->contact_count; c++) {
         n->current[c] = start_of(n, c, overlap, nonlocal);
         capped |= nonlocal && nlc_bits(n->current[c]) != nlc_bits(nonlocal[c]);
     }
-    n->swept &= !capped;
+    if (n->swept) n->swept = !nlc_on_any_rank(n, capped);
 }
 
 static bool all_zero(const double *values, int64_t count)
@@ -170,13 +178,13 @@ static void by_clusters(nlc_network *n, const double *overlap, const double *nor
 static void accelerated(nlc_network *n, const double *overlap, const double *normal, const double *nonlocal, nlc_outcome *out)
 {
     /* where contact points move, displacements of sides are wanted, which are known of whole networks only */
-    const bool whole = n->settings.model->shape == NLC_SHAPE_PLACE;
+    const bool whole = n->settings.model->shape == NLC_SHAPE_PLACE || nlc_is_shared(n);
     /* a sweep that has been done (warm.c) was one of a whole network with few contacts to leave out */
     if (!whole && !n->swept && (nlc_mark_active(n, overlap) <= n->contact_count / 4 * 3 || !n->connected)) {
         by_clusters(n, overlap, normal, nonlocal, out);
         return;
     }
-    nlc_settle_region(n, overlap, normal, out);
+    if (!nlc_is_shared(n)) nlc_settle_region(n, overlap, normal, out);
     n->settings.model->potential ? nlc_galerkin(n, overlap, normal, out) : nlc_mixed(n, overlap, normal, out);
     warn_if_close(n, overlap, normal, out);
     out->info.clusters = 1;
@@ -196,7 +204,7 @@ static void iterate(nlc_network *n, const double *overlap, const double *normal,
     }
     nlc_fixed_point(n, overlap, normal, out);
     if (out->status == NLC_WARNING_NOT_CONVERGED && out->info.sweeps < n->settings.max_sweeps &&
-        !all_zero(nonlocal, n->contact_count)) {
+        (nlc_is_shared(n) ? n->ranks.nonlocal > 0 : !all_zero(nonlocal, n->contact_count))) {
         start_from(n, overlap, 0); /* it may have been a bad start */
         nlc_fixed_point(n, overlap, normal, out);
     }
@@ -215,35 +223,76 @@ static void uncoupled(nlc_network *n, nlc_outcome *out)
     out->info.lambda_lower = out->info.lambda_upper = 0;
 }
 
+/* All that can be wrong with the arguments of a network that is one. */
+static nlc_status check_arguments(const nlc_network *n, const double *force, const double *nonlocal, const double *overlap,
+                                  const double *normal, int64_t *culprit)
+{
+    const double *const argument[4] = {force, nonlocal, overlap, normal};
+    *culprit = -1;
+    if (n->contact_count == 0) return NLC_OK;
+    for (int a = 0; a < 4; a++) {
+        *culprit = a + 1;
+        if (!argument[a]) return NLC_ERROR_NULL;
+    }
+    return check(n, overlap, normal, nonlocal, culprit);
+}
+
+/* The ranks of a shared network come together; false if there is an error anywhere. */
+static bool meet(nlc_network *n, nlc_status status, const double *overlap, const double *nonlocal, nlc_outcome *out)
+{
+    double top[5] = {0, 0, 0, n->stiffness_exponent, n->coupling_exponent};
+    if (status == NLC_OK) {
+        largest_overlaps(n, overlap);
+        top[0] = nlc_largest_magnitude(overlap, n->contact_count);
+        top[1] = nlc_largest_magnitude(n->stiffness, n->contact_count);
+        top[2] = nlc_largest_magnitude(nonlocal, n->contact_count);
+    }
+    nlc_meet(n, NLC_SOLVE, status, out->info.culprit, n->largest, top, 5);
+    memcpy(nlc_shared_overlaps(n), n->largest, (size_t)n->body_count * sizeof *n->largest);
+    n->ranks.overlap = top[0];
+    n->ranks.stiffness = top[1];
+    n->ranks.nonlocal = top[2];
+    if (nlc_is_over(n, out)) return false;
+    out->info.culprit = -1;
+    out->status = check_range(top[0], (int)top[3], (int)top[4]);
+    if (out->status != NLC_OK) nlc_take_leave(n, 0, out);
+    return out->status == NLC_OK;
+}
+
+static void solve(nlc_network *n, const double *overlap, const double *normal, const double *nonlocal, nlc_outcome *out)
+{
+    if (!n->settings.model->within)
+        uncoupled(n, out);
+    else if (n->settings.method == NLC_METHOD_AUTOMATIC && !nlc_is_shared(n) && nlc_is_loose(n, overlap, normal, out))
+        all_hertz(n, out);
+    else
+        iterate(n, overlap, normal, nonlocal, out);
+}
+
 nlc_status nlc_solve(nlc_network *network, double *NLC_RESTRICT force, double *NLC_RESTRICT nonlocal,
                      const double *NLC_RESTRICT overlap, const double *NLC_RESTRICT normal, nlc_info *info)
 {
-    if (!nlc_info_is_valid(info)) return NLC_ERROR_STRUCT_SIZE;
+    const bool valid = nlc_info_is_valid(info), shared = network && nlc_network_is_valid(network) && nlc_is_shared(network);
+    if (!valid && !shared) return NLC_ERROR_STRUCT_SIZE;
     if (!network) return nlc_error(info, NLC_ERROR_NULL, 0);
     if (!nlc_network_is_valid(network)) return nlc_error(info, NLC_ERROR_NETWORK, -1);
     const int64_t count = network->contact_count;
-    if (count == 0) return nlc_error(info, NLC_OK, -1);
-    if (!force) return nlc_error(info, NLC_ERROR_NULL, 1);
-    if (!nonlocal) return nlc_error(info, NLC_ERROR_NULL, 2);
-    if (!overlap) return nlc_error(info, NLC_ERROR_NULL, 3);
-    if (!normal) return nlc_error(info, NLC_ERROR_NULL, 4);
+    if (count == 0 && !shared) return nlc_error(info, NLC_OK, -1);
     nlc_outcome out = {NLC_OK, nlc_new_info()};
-    out.status = check(network, overlap, normal, nonlocal, &out.info.culprit);
-    if (out.status != NLC_OK) return nlc_error(info, out.status, out.info.culprit);
-
+    out.status = valid ? check_arguments(network, force, nonlocal, overlap, normal, &out.info.culprit) : NLC_ERROR_STRUCT_SIZE;
+    if (shared) meet(network, out.status, overlap, nonlocal, &out);
     network->cached = false;
-    if (!network->settings.model->within)
-        uncoupled(network, &out);
-    else if (network->settings.method == NLC_METHOD_AUTOMATIC && nlc_is_loose(network, overlap, normal, &out))
-        all_hertz(network, &out);
-    else
-        iterate(network, overlap, normal, nonlocal, &out);
-    if (out.status < 0) return nlc_error(info, out.status, out.info.culprit);
+    if (out.status == NLC_OK) solve(network, overlap, normal, nonlocal, &out);
+    if (shared && out.status >= 0) {
+        for (int64_t c = 0; c < count; c++) network->force[c] = nlc_law(network->stiffness[c], overlap[c] + network->current[c]);
+        nlc_take_leave(network, network->force, &out);
+    }
+    if (out.status < 0) return valid ? nlc_error(info, out.status, out.info.culprit) : out.status;
 
     for (int64_t c = 0; c < count; c++) {
         nonlocal[c] = network->current[c];
         force[c] = nlc_law(network->stiffness[c], overlap[c] + nonlocal[c]);
-        out.info.active += force[c] > 0;
+        if (!shared) out.info.active += force[c] > 0;
     }
     return nlc_report(info, &out.info, out.status);
 }

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "collective.h"
 #include "parallel.h"
 #include "structs.h"
 #include "vector.h"
@@ -124,7 +125,7 @@ int64_t nlc_find_coincident(const nlc_network *n, const double *normal, int64_t 
 static int closeness(const nlc_network *n, const double *normal)
 {
     double smallest = 4;
-    for (int64_t k = 0; k < n->particle_count; k++)
+    for (int64_t k = 0; k < n->owned; k++)
         for (int64_t p = n->start[k]; p < n->start[k + 1]; p++)
             for (int64_t q = n->start[k]; q < p; q++) {
                 double s = squared_distance(normal, n->entry[p], n->entry[q]);
@@ -152,7 +153,7 @@ static int64_t pairs_on(const nlc_network *n, int64_t particle)
 /* Numbers in the cache for a window. */
 static int64_t kept_in(const nlc_network *n, int64_t window)
 {
-    const int64_t first = window * NLC_WINDOW, end = nlc_end_of(window, NLC_WINDOW, n->particle_count);
+    const int64_t first = window * NLC_WINDOW, end = nlc_end_of(window, NLC_WINDOW, n->owned);
     const nlc_variant *variant = nlc_variant_of(n);
     int64_t sum = 0;
     if (variant) return variant->kept_in(n, first, end);
@@ -208,7 +209,7 @@ static void displace_task(void *work, int64_t w)
 {
     const job *s = work;
     const nlc_variant *variant = nlc_variant_of(s->n);
-    const int64_t first = w * NLC_WINDOW, end = nlc_end_of(w, NLC_WINDOW, s->n->particle_count);
+    const int64_t first = w * NLC_WINDOW, end = nlc_end_of(w, NLC_WINDOW, s->n->owned);
     s->n->piece[w].bad = variant ? variant->displace(s->n, s->force, s->weighed, s->normal, first, end) : displace_window(s, first, end);
 }
 
@@ -227,46 +228,73 @@ static nlc_status displace(nlc_network *n, nlc_response response, const double *
     return bad >= 0 ? NLC_ERROR_COINCIDENT : NLC_OK;
 }
 
+/* On ranks an error is that of the network when all of them know of it. */
+static nlc_status exchange(nlc_network *n, nlc_status status, int64_t culprit)
+{
+    if (!nlc_is_shared(n)) return status;
+    if (status != NLC_OK) {
+        nlc_fail(n, status, culprit);
+        for (int64_t e = 0; e < 2 * n->contact_count; e++) n->side[e] = 0;
+    }
+    nlc_exchange_sides(n, n->side);
+    return NLC_OK;
+}
+
 nlc_status nlc_displace(nlc_network *network, nlc_response response, const double *force, const double *normal, int64_t *culprit)
 {
     const nlc_shape shape = network->settings.model->shape;
     if (response <= NLC_OF_STATE && (shape == NLC_SHAPE_MOMENTS || shape == NLC_SHAPE_RADIUS)) nlc_set_approach(network, force);
-    return displace(network, response, force, NULL, normal, culprit);
+    const nlc_status status = displace(network, response, force, NULL, normal, culprit);
+    return exchange(network, status, *culprit);
 }
 
 nlc_status nlc_displace_weighed(nlc_network *network, const double *normal, int64_t *culprit)
 {
-    return displace(network, NLC_OF_FORCES, network->force, network->share, normal, culprit);
+    const nlc_status status = displace(network, NLC_OF_FORCES, network->force, network->share, normal, culprit);
+    return exchange(network, status, *culprit);
+}
+
+static nlc_status check(const nlc_network *n, const double *displacement, const double *force, const double *overlap,
+                        const double *normal, int64_t *culprit)
+{
+    const int64_t count = n->contact_count;
+    const bool places = n->settings.model->shape == NLC_SHAPE_PLACE;
+    if (count == 0) return NLC_OK;
+    *culprit = !displacement ? 1 : !force ? 2 : 4;
+    if (!displacement || !force || !normal) return NLC_ERROR_NULL;
+    if (overlap && (*culprit = nlc_first_not_finite(overlap, count)) >= 0) return NLC_ERROR_OVERLAP;
+    *culprit = 3;
+    if (places && !overlap) return NLC_ERROR_NULL;
+    if ((*culprit = nlc_first_not_unit(normal, count)) >= 0) return NLC_ERROR_NORMAL;
+    if (places && (*culprit = nlc_first_not_finite(displacement, 2 * count)) >= 0) {
+        *culprit /= 2;
+        return NLC_ERROR_NONLOCAL;
+    }
+    return (*culprit = nlc_first_not_finite(force, count)) >= 0 ? NLC_ERROR_FORCE : NLC_OK;
 }
 
 nlc_status nlc_sweep(nlc_network *network, double *NLC_RESTRICT displacement, const double *NLC_RESTRICT force,
                      const double *NLC_RESTRICT overlap, const double *NLC_RESTRICT normal, nlc_info *info)
 {
-    int64_t culprit;
-    if (!nlc_info_is_valid(info)) return NLC_ERROR_STRUCT_SIZE;
+    const bool valid = nlc_info_is_valid(info), shared = network && nlc_network_is_valid(network) && nlc_is_shared(network);
+    if (!valid && !shared) return NLC_ERROR_STRUCT_SIZE;
     if (!network) return nlc_error(info, NLC_ERROR_NULL, 0);
     if (!nlc_network_is_valid(network)) return nlc_error(info, NLC_ERROR_NETWORK, -1);
     const int64_t count = network->contact_count;
-    if (count == 0) return nlc_error(info, NLC_OK, -1);
-    if (!displacement) return nlc_error(info, NLC_ERROR_NULL, 1);
-    if (!force) return nlc_error(info, NLC_ERROR_NULL, 2);
-    if (!normal) return nlc_error(info, NLC_ERROR_NULL, 4);
-    if (overlap && (culprit = nlc_first_not_finite(overlap, count)) >= 0) return nlc_error(info, NLC_ERROR_OVERLAP, culprit);
-    const bool places = network->settings.model->shape == NLC_SHAPE_PLACE;
-    if (places && !overlap) return nlc_error(info, NLC_ERROR_NULL, 3);
-    if ((culprit = nlc_first_not_unit(normal, count)) >= 0) return nlc_error(info, NLC_ERROR_NORMAL, culprit);
-    if (places && (culprit = nlc_first_not_finite(displacement, 2 * count)) >= 0)
-        return nlc_error(info, NLC_ERROR_NONLOCAL, culprit / 2);
-    if ((culprit = nlc_first_not_finite(force, count)) >= 0) return nlc_error(info, NLC_ERROR_FORCE, culprit);
+    if (count == 0 && !shared) return nlc_error(info, NLC_OK, -1);
+    nlc_outcome out = {NLC_OK, nlc_new_info()};
+    out.status = valid ? check(network, displacement, force, overlap, normal, &out.info.culprit) : NLC_ERROR_STRUCT_SIZE;
+    if (shared) nlc_meet(network, NLC_SWEEP, out.status, out.info.culprit, 0, 0, 0);
+    if (nlc_is_over(network, &out) || out.status != NLC_OK) return valid ? nlc_report(info, &out.info, out.status) : out.status;
 
-    nlc_info record = nlc_new_info();
     network->cached = false;
     nlc_set_units(network, 0, 0);
-    if (places) nlc_set_places(network, displacement, overlap, 1);
-    nlc_status status = nlc_displace(network, NLC_OF_FORCES, force, normal, &record.culprit);
-    if (status != NLC_OK) return nlc_report(info, &record, status);
-    memcpy(displacement, network->side, 2 * (size_t)count * sizeof *displacement);
-    record.sweeps = 1;
-    for (int64_t c = 0; c < count; c++) record.active += force[c] > 0;
-    return nlc_report(info, &record, NLC_OK);
+    if (network->settings.model->shape == NLC_SHAPE_PLACE) nlc_set_places(network, displacement, overlap, 1);
+    out.status = nlc_displace(network, NLC_OF_FORCES, force, normal, &out.info.culprit);
+    nlc_take_leave(network, force, &out);
+    if (out.status != NLC_OK) return nlc_report(info, &out.info, out.status);
+    if (count > 0) memcpy(displacement, network->side, 2 * (size_t)count * sizeof *displacement);
+    out.info.sweeps = 1;
+    for (int64_t c = 0; c < count && !shared; c++) out.info.active += force[c] > 0;
+    return nlc_report(info, &out.info, NLC_OK);
 }

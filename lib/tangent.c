@@ -7,6 +7,7 @@
  */
 #include "block.h"
 #include "bound.h"
+#include "collective.h"
 #include "structs.h"
 
 #define PART 0.1 /* of the tolerance, for the residual of the linear equations */
@@ -15,15 +16,19 @@ typedef struct units {
     int stiffness, force, slope; /* exponents of 2: k, P and D = dP/dx */
 } units;
 
+/* Largest magnitudes, of all ranks. */
+typedef struct largest {
+    double stiffness, force, in, coupling_exponent;
+} largest;
+
 /* Sets network->unit, and network->slope to D.  False: beyond the range of double, or of what can be coupled. */
-static bool set_slopes(nlc_network *n, const double *force, units *result)
+static bool set_slopes(nlc_network *n, const double *force, const largest *top, units *result)
 {
-    units u = {nlc_exponent_above(nlc_largest_magnitude(n->stiffness, n->contact_count)),
-               nlc_exponent_above(nlc_largest_magnitude(force, n->contact_count)), 0};
+    units u = {nlc_exponent_above(top->stiffness), nlc_exponent_above(top->force), 0};
     u.force += (3 - (u.force - u.stiffness) % 3) % 3; /* the unit of overlap, (P/k)^(2/3), is to be a power of 2, too */
     u.slope = u.stiffness + (u.force - u.stiffness) / 3;
     *result = u;
-    if (u.slope > 1000 || u.slope < -1000 || n->coupling_exponent + u.slope > 200) return false;
+    if (u.slope > 1000 || u.slope < -1000 || (int)top->coupling_exponent + u.slope > 200) return false;
     n->cached = false;
     nlc_set_units(n, -2 * ((u.force - u.stiffness) / 3), -u.stiffness);
     for (int64_t c = 0; c < n->contact_count; c++) {
@@ -57,11 +62,16 @@ static bool couple(nlc_network *n, double *out, const double *in, const double *
     return o->status == NLC_OK;
 }
 
-static double dot(const double *a, const double *b, int64_t count)
+static double dot_here(const double *a, const double *b, int64_t count)
 {
     double s = 0;
     for (int64_t c = 0; c < count; c++) s += a[c] * b[c];
     return s;
+}
+
+static double dot(nlc_network *n, const double *a, const double *b)
+{
+    return nlc_dot_over_ranks(n, dot_here(a, b, n->contact_count), a, b);
 }
 
 /* A x = b by conjugate gradients; b becomes the residual. */
@@ -69,15 +79,18 @@ static void solve_linear(nlc_network *n, double *x, double *b, const double *nor
 {
     double *p = n->spare[1], *a = n->spare[2];
     const int64_t count = n->contact_count;
-    double rr = dot(b, b, count);
+    double rr = dot(n, b, b);
     const double enough = PART * PART * n->settings.tolerance * n->settings.tolerance * rr, first = rr;
     for (int64_t c = 0; c < count; c++) x[c] = 0, p[c] = b[c];
     while (rr > enough && rr > 1e-290) {
+        if (nlc_is_over(n, o)) break;
         if (o->info.sweeps >= n->settings.max_sweeps) o->status = NLC_WARNING_NOT_CONVERGED;
         if (o->status != NLC_OK || !couple(n, a, p, normal, o)) break;
         for (int64_t c = 0; c < count; c++) a[c] = p[c] - a[c];
-        const double curvature = dot(p, a, count), before = rr;
-        if (curvature <= 1e-14 * dot(p, p, count)) {
+        const double curvature = dot(n, p, a), before = rr;
+        const bool unstable = curvature <= 1e-14 * dot(n, p, p);
+        if (nlc_is_over(n, o)) break;
+        if (unstable) {
             o->status = NLC_ERROR_UNSTABLE;
             break;
         }
@@ -85,7 +98,7 @@ static void solve_linear(nlc_network *n, double *x, double *b, const double *nor
             x[c] += before / curvature * p[c];
             b[c] -= before / curvature * a[c];
         }
-        rr = dot(b, b, count);
+        rr = dot(n, b, b);
         for (int64_t c = 0; c < count; c++) p[c] = b[c] + rr / before * p[c];
     }
     o->info.residual = first > 0 ? sqrt(rr / first) : 0;
@@ -101,20 +114,27 @@ static nlc_status check(nlc_network *n, const double *in, const double *force, c
     return NLC_OK;
 }
 
-/* Scaled copy; returns its unit's exponent. */
-static int scale_down(double *to, const double *from, int64_t count)
+/* Scaled copy, top being the largest; returns its unit's exponent. */
+static int scale_down(double *to, const double *from, int64_t count, double top)
 {
-    const int e = nlc_exponent_above(nlc_largest_magnitude(from, count));
+    const int e = nlc_exponent_above(top);
     for (int64_t c = 0; c < count; c++) to[c] = nlc_join(from[c], -e);
     return e;
 }
 
-/* to = from 2^e; false, with nothing written, if that is beyond the range of double */
-static bool scale_up(double *to, const double *from, int64_t count, int e)
+static void scale_up(double *to, const double *from, int64_t count, int e)
 {
-    if (nlc_exponent_above(nlc_largest_magnitude(from, count)) + e > 1023) return false;
     for (int64_t c = 0; c < count; c++) to[c] = nlc_join(from[c], e);
-    return true;
+}
+
+/* The end of what each of the functions computes, values 2^e: whether that can be held, and is it so everywhere? */
+static bool finish(nlc_network *n, const double *values, int64_t count, int e, nlc_outcome *o)
+{
+    double top = o->status >= 0 ? nlc_largest_magnitude(values, count) : 0;
+    nlc_max_over_ranks(n, &top, 1);
+    if (o->status >= 0 && nlc_exponent_above(top) + e > 1023) o->status = NLC_ERROR_RANGE;
+    if (!nlc_is_over(n, o)) nlc_take_leave(n, 0, o);
+    return o->status >= 0;
 }
 
 typedef struct call {
@@ -123,37 +143,65 @@ typedef struct call {
     int in; /* exponent of the unit of the vector, whose scaled copy is in spare[0] */
 } call;
 
-/* What nlc_tangent and its inverse begin with.  False: there is nothing to compute, call.o.status is to be returned. */
-static bool begin(call *k, nlc_network *n, const double *out, const double *in, const double *force, const double *normal,
-                  nlc_status bad_in, nlc_info *info)
+/* What is given to one of the functions; where there is no vector in, bad_in is NLC_OK. */
+typedef struct given {
+    const double *out, *in, *force, *normal;
+    nlc_status bad_in;
+    nlc_function function;
+} given;
+
+static nlc_status check_arguments(nlc_network *n, const given *g, int64_t *culprit)
 {
+    const bool vector = g->bad_in != NLC_OK;
+    const double *const argument[4] = {g->out, vector ? g->in : g->out, g->force, g->normal};
+    *culprit = n->settings.number;
+    if (!n->settings.model->potential) return NLC_ERROR_NO_POTENTIAL;
+    *culprit = -1;
+    if (n->contact_count == 0 && vector) return NLC_OK;
+    for (int a = 0; a < 4; a++) { /* the bound needs no contacts to have something to say of particles */
+        *culprit = vector || a == 0 ? a + 1 : a;
+        if (!argument[a] && (a > 0 ? n->contact_count > 0 : vector || n->particle_count > 0)) return NLC_ERROR_NULL;
+    }
+    *culprit = -1;
+    return check(n, vector ? g->in : 0, g->force, g->normal, g->bad_in, culprit);
+}
+
+/* What they begin with.  False: there is nothing to compute, call.o.status is to be returned. */
+static bool begin(call *k, nlc_network *n, const given *g, nlc_info *info)
+{
+    const bool valid = nlc_info_is_valid(info), shared = n && nlc_network_is_valid(n) && nlc_is_shared(n);
     k->o = (nlc_outcome){NLC_ERROR_STRUCT_SIZE, nlc_new_info()};
-    if (!nlc_info_is_valid(info)) return false;
-    k->o.status = NLC_OK;
+    if (!valid && !shared) return false;
     if (!n) {
         k->o.status = NLC_ERROR_NULL;
         k->o.info.culprit = 0;
     } else if (!nlc_network_is_valid(n)) {
         k->o.status = NLC_ERROR_NETWORK;
-    } else if (!n->settings.model->potential) {
-        k->o.status = NLC_ERROR_NO_POTENTIAL;
-        k->o.info.culprit = n->settings.number;
-    } else if (n->contact_count > 0) {
-        const double *const argument[4] = {out, in, force, normal};
-        for (int a = 4; a > 0; a--) {
-            if (argument[a - 1]) continue;
-            k->o.status = NLC_ERROR_NULL;
-            k->o.info.culprit = a;
+    } else {
+        largest top = {0, 0, 0, n->coupling_exponent};
+        if (valid) k->o.status = check_arguments(n, g, &k->o.info.culprit);
+        if (k->o.status == NLC_OK) {
+            top.stiffness = nlc_largest_magnitude(n->stiffness, n->contact_count);
+            top.force = nlc_largest_magnitude(g->force, n->contact_count);
+            top.in = g->bad_in != NLC_OK ? nlc_largest_magnitude(g->in, n->contact_count) : 0;
         }
-        if (k->o.status == NLC_OK) k->o.status = check(n, in, force, normal, bad_in, &k->o.info.culprit);
-        if (k->o.status == NLC_OK && !set_slopes(n, force, &k->u)) k->o.status = NLC_ERROR_RANGE;
-        if (k->o.status == NLC_OK) k->o.status = set_state(n, force, normal, k->u, &k->o.info);
+        if (shared) {
+            double values[4] = {top.stiffness, top.force, top.in, top.coupling_exponent};
+            nlc_meet(n, g->function, k->o.status, k->o.info.culprit, 0, values, 4);
+            top = (largest){values[0], values[1], values[2], values[3]};
+        }
+        const bool nothing = !shared && (g->bad_in != NLC_OK ? n->contact_count : n->particle_count) == 0;
+        if (!nlc_is_over(n, &k->o) && k->o.status == NLC_OK && !nothing) {
+            if (!set_slopes(n, g->force, &top, &k->u)) k->o.status = NLC_ERROR_RANGE;
+            if (k->o.status == NLC_OK) k->o.status = set_state(n, g->force, g->normal, k->u, &k->o.info);
+            if (k->o.status == NLC_OK) {
+                if (g->bad_in != NLC_OK) k->in = scale_down(n->spare[0], g->in, n->contact_count, top.in);
+                return true;
+            }
+            nlc_take_leave(n, 0, &k->o);
+        }
     }
-    if (k->o.status == NLC_OK && n->contact_count > 0) {
-        k->in = scale_down(n->spare[0], in, n->contact_count);
-        return true;
-    }
-    nlc_report(info, &k->o.info, k->o.status);
+    if (valid) nlc_report(info, &k->o.info, k->o.status);
     return false;
 }
 
@@ -161,13 +209,14 @@ nlc_status nlc_tangent(nlc_network *network, double *NLC_RESTRICT dforce, const 
                        const double *NLC_RESTRICT force, const double *NLC_RESTRICT normal, nlc_info *info)
 {
     call k;
-    if (!begin(&k, network, dforce, doverlap, force, normal, NLC_ERROR_OVERLAP, info)) return k.o.status;
+    const given g = {dforce, doverlap, force, normal, NLC_ERROR_OVERLAP, NLC_TANGENT};
+    if (!begin(&k, network, &g, info)) return k.o.status;
     const int64_t count = network->contact_count;
     double *b = network->spare[0], *x = network->current;
     for (int64_t c = 0; c < count; c++) b[c] *= sqrt(network->slope[c]);
     solve_linear(network, x, b, normal, &k.o);
     for (int64_t c = 0; c < count; c++) x[c] *= sqrt(network->slope[c]);
-    if (k.o.status >= 0 && !scale_up(dforce, x, count, k.in + k.u.slope)) k.o.status = NLC_ERROR_RANGE;
+    if (finish(network, x, count, k.in + k.u.slope, &k.o)) scale_up(dforce, x, count, k.in + k.u.slope);
     return nlc_report(info, &k.o.info, k.o.status);
 }
 
@@ -175,7 +224,8 @@ nlc_status nlc_tangent_inverse(nlc_network *network, double *NLC_RESTRICT doverl
                                const double *NLC_RESTRICT force, const double *NLC_RESTRICT normal, nlc_info *info)
 {
     call k;
-    if (!begin(&k, network, doverlap, dforce, force, normal, NLC_ERROR_FORCE, info)) return k.o.status;
+    const given g = {doverlap, dforce, force, normal, NLC_ERROR_FORCE, NLC_TANGENT_INVERSE};
+    if (!begin(&k, network, &g, info)) return k.o.status;
     const int64_t count = network->contact_count;
     double *p = network->spare[0], *x = network->current;
     for (int64_t c = 0; c < count; c++) p[c] = network->slope[c] > 0 ? p[c] : 0;
@@ -185,7 +235,7 @@ nlc_status nlc_tangent_inverse(nlc_network *network, double *NLC_RESTRICT doverl
         const double slope = network->slope[c], own = p[c] / (slope > 1e-290 ? slope : 1e-290);
         x[c] = slope > 1e-290 ? own - (network->side[2 * c] + network->side[2 * c + 1]) : 0;
     }
-    if (k.o.status == NLC_OK && !scale_up(doverlap, x, count, k.in - k.u.slope)) k.o.status = NLC_ERROR_RANGE;
+    if (finish(network, x, count, k.in - k.u.slope, &k.o)) scale_up(doverlap, x, count, k.in - k.u.slope);
     return nlc_report(info, &k.o.info, k.o.status);
 }
 
@@ -206,40 +256,32 @@ static double stiffness_on(const nlc_network *n, int64_t particle)
     return sum;
 }
 
+/* b_k and shares of a model without coupling. */
+static void no_bound(nlc_network *n, nlc_info *info)
+{
+    for (int64_t k = 0; k < n->particle_count; k++) n->bound[k] = 0;
+    for (int64_t e = 0; e < 2 * n->contact_count; e++) n->share[e] = 0;
+    info->lambda_lower = info->lambda_upper = 0;
+}
+
 nlc_status nlc_tangent_bound(nlc_network *network, double *NLC_RESTRICT stiffness, const double *NLC_RESTRICT force,
                              const double *NLC_RESTRICT normal, nlc_info *info)
 {
-    if (!nlc_info_is_valid(info)) return NLC_ERROR_STRUCT_SIZE;
-    if (!network) return nlc_error(info, NLC_ERROR_NULL, 0);
-    if (!nlc_network_is_valid(network)) return nlc_error(info, NLC_ERROR_NETWORK, -1);
-    if (!network->settings.model->potential) return nlc_error(info, NLC_ERROR_NO_POTENTIAL, network->settings.number);
-    const int64_t particles = network->particle_count;
-    if (particles == 0) return nlc_error(info, NLC_OK, -1);
-    if (!stiffness) return nlc_error(info, NLC_ERROR_NULL, 1);
-    if (network->contact_count > 0 && !force) return nlc_error(info, NLC_ERROR_NULL, 2);
-    if (network->contact_count > 0 && !normal) return nlc_error(info, NLC_ERROR_NULL, 3);
-    nlc_outcome o = {NLC_OK, nlc_new_info()};
-    o.status = check(network, 0, force, normal, NLC_OK, &o.info.culprit);
-    if (o.status != NLC_OK) return nlc_report(info, &o.info, o.status);
-
-    units u;
-    if (!set_slopes(network, force, &u)) return nlc_report(info, &o.info, NLC_ERROR_RANGE);
-    o.status = set_state(network, force, normal, u, &o.info);
-    if (o.status != NLC_OK) return nlc_report(info, &o.info, o.status);
+    call k;
+    const given g = {stiffness, 0, force, normal, NLC_OK, NLC_TANGENT_BOUND};
+    if (!begin(&k, network, &g, info)) return k.o.status;
     nlc_bound bound = {0, -1, 0};
     if (network->settings.model->within) {
         nlc_bound_particles(network, normal, &bound);
-        o.info.lambda_upper = bound.upper;
-        o.info.critical_particle = bound.where;
-        o.info.blocks = bound.blocks;
+        k.o.info.lambda_upper = bound.upper;
+        k.o.info.critical_particle = bound.where;
+        k.o.info.blocks = bound.blocks;
     } else {
-        for (int64_t k = 0; k < particles; k++) network->bound[k] = 0;
-        for (int64_t e = 0; e < 2 * network->contact_count; e++) network->share[e] = 0;
-        o.info.lambda_lower = o.info.lambda_upper = 0;
+        no_bound(network, &k.o.info);
     }
-    if (bound.upper >= 1) return nlc_report(info, &o.info, NLC_ERROR_UNSTABLE);
+    if (bound.upper >= 1) k.o.status = NLC_ERROR_UNSTABLE;
     double *sum = network->growth;
-    for (int64_t k = 0; k < particles; k++) sum[k] = stiffness_on(network, k);
-    if (!scale_up(stiffness, sum, particles, u.slope)) return nlc_report(info, &o.info, NLC_ERROR_RANGE);
-    return nlc_report(info, &o.info, NLC_OK);
+    for (int64_t p = 0; p < network->particle_count; p++) sum[p] = p < network->owned && bound.upper < 1 ? stiffness_on(network, p) : 0;
+    if (finish(network, sum, network->particle_count, k.u.slope, &k.o)) scale_up(stiffness, sum, network->particle_count, k.u.slope);
+    return nlc_report(info, &k.o.info, k.o.status);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* units.c - the units of an iteration, its start and its end. */
+#include "collective.h"
 #include "iteration.h"
 
 /* Minus the exponent of the power of 2^n that is next to x > 0 from below; 0 for 0. */
@@ -15,8 +16,9 @@ static int per_unit_of(double x, int n)
 static void largest_overlaps(nlc_iteration *q)
 {
     nlc_network *n = q->n;
-    for (int64_t k = 0; k < n->body_count; k++) n->largest[k] = 0;
-    for (int64_t c = 0; c < n->contact_count; c++) {
+    const bool shared = nlc_is_shared(n);
+    for (int64_t k = 0; k < n->body_count; k++) n->largest[k] = shared ? nlc_shared_overlaps(n)[k] * q->load : 0;
+    for (int64_t c = 0; c < n->contact_count && !shared; c++) {
         const double x = q->overlap[c] * q->load;
         const int64_t i = n->i[c], j = n->j[c];
         if (i < n->particle_count && x > n->largest[i]) n->largest[i] = x;
@@ -27,8 +29,10 @@ static void largest_overlaps(nlc_iteration *q)
 void nlc_iteration_units(nlc_iteration *q, nlc_network *n, const double *overlap, const double *normal, double part)
 {
     *q = (nlc_iteration){.n = n, .overlap = overlap, .normal = normal, .directions = 1};
-    const int length = per_unit_of(nlc_largest_magnitude(overlap, n->contact_count), 2); /* its root is a power of 2, too */
-    const int stiffness = per_unit_of(nlc_largest_magnitude(n->stiffness, n->contact_count), 1);
+    const bool shared = nlc_is_shared(n);
+    const double top = shared ? n->ranks.overlap : nlc_largest_magnitude(overlap, n->contact_count);
+    const int length = per_unit_of(top, 2); /* its root is a power of 2, too */
+    const int stiffness = per_unit_of(shared ? n->ranks.stiffness : nlc_largest_magnitude(n->stiffness, n->contact_count), 1);
     q->per_overlap = nlc_pow2(length);
     q->per_stiffness = nlc_pow2(stiffness);
     q->load = q->per_overlap * part;

@@ -8,6 +8,7 @@
  *     k_cd (w_c w_d)^1/2,   w = D (U_i + U_j),
  * and no diagonal, so that its largest eigenvalue is at most ((m-1)/m sum of k^2 w w)^1/2 for m contacts (block.h).
  */
+#include "collective.h"
 #include "iteration.h"
 #include "structs.h"
 
@@ -18,10 +19,13 @@
 /* What a start has to be worth looking at: displacements of about the right size, half of the contacts with a force, one cluster. */
 static bool may_do(const nlc_network *n, const double *overlap, const double *nonlocal, int64_t *active)
 {
-    const double largest = nlc_largest_magnitude(nonlocal, n->contact_count);
+    const bool shared = nlc_is_shared(n);
+    const double largest = shared ? n->ranks.nonlocal : nlc_largest_magnitude(nonlocal, n->contact_count);
+    *active = n->contact_count;
+    if (!n->settings.model->potential || !nlc_is_linear(n->settings.model->shape) || largest <= 0) return false;
+    if (largest / LARGEST > (shared ? n->ranks.overlap : nlc_largest_magnitude(overlap, n->contact_count))) return false;
+    if (shared || !n->connected) return shared; /* ranks leave nothing out */
     *active = 0;
-    if (!n->connected || !n->settings.model->potential || !nlc_is_linear(n->settings.model->shape) || largest <= 0) return false;
-    if (largest / LARGEST > nlc_largest_magnitude(overlap, n->contact_count)) return false;
     for (int64_t c = 0; c < n->contact_count; c++) *active += overlap[c] + nonlocal[c] > 0;
     return *active > n->contact_count / 2;
 }
@@ -68,7 +72,7 @@ static double bound(const nlc_iteration *q, int64_t *where)
     const bool known = nlc_variant_of(n);
     double largest = 0;
     *where = -1;
-    for (int64_t k = 0; k < n->particle_count; k++) {
+    for (int64_t k = 0; k < n->owned; k++) {
         const double m = (double)(n->start[k + 1] - n->start[k]), sum = known ? n->norm[k] : squares(q, k);
         if (!(sum < 1)) return 1; /* m > 1 then */
         const double b = 2 * sum * (m - 1) / (m + (m < 1));
@@ -120,6 +124,19 @@ static result look(nlc_iteration *q, const double *nonlocal)
     return r;
 }
 
+/* The same of all ranks, and the bound. */
+static void look_over_ranks(nlc_network *n, result *r, double *upper, int64_t *where)
+{
+    double values[4] = {r->ratio, *upper, r->grown, r->lost};
+    nlc_max_over_ranks(n, values, 4);
+    if (values[0] > r->ratio) r->where = -1;
+    if (values[1] > *upper) *where = -1;
+    r->ratio = values[0];
+    *upper = values[1];
+    r->grown = values[2] > 0;
+    r->lost = values[3] > 0;
+}
+
 /* What was found serves as the first sweep of an iteration, in the caller's units. */
 static void hand_over(nlc_iteration *q)
 {
@@ -139,9 +156,14 @@ bool nlc_is_solved(nlc_network *n, const double *overlap, const double *normal, 
     out->info.sweeps++;
     out->status = nlc_displace_weighed(n, normal, &out->info.culprit);
     if (out->status != NLC_OK) return true;
-    const result r = look(&q, nonlocal);
+    nlc_exchange_particles(n, n->largest);
+    result r = look(&q, nonlocal);
+    if (r.lost && !nlc_is_shared(n)) return false;
+    double upper = bound(&q, &info.critical_particle);
+    look_over_ranks(n, &r, &upper, &info.critical_particle);
+    if (nlc_is_over(n, out)) return true;
     if (r.lost) return false;
-    const double upper = bound(&q, &info.critical_particle), limit = 1 - NLC_SAFETY * r.ratio / tolerance;
+    const double limit = 1 - NLC_SAFETY * r.ratio / tolerance;
     if (r.grown || upper > (limit < 1 - NLC_MARGIN ? limit : 1 - NLC_MARGIN)) {
         if (active > n->contact_count / 4 * 3) hand_over(&q); /* else contacts are left out */
         return false;

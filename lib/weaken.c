@@ -11,6 +11,7 @@
 
 #include "anderson.h"
 #include "bound.h"
+#include "collective.h"
 #include "iteration.h"
 
 #define FIRST_STEP 0.7 /* of the plain iteration, before there are differences */
@@ -45,6 +46,7 @@ static double weakened_map(nlc_iteration *q, const double *x, double *y, nlc_out
     out->info.weakest_particle = -1;
     for (int64_t k = 0; k < n->particle_count; k++) {
         n->weakening[k] = n->bound[k] > 1 - NLC_MARGIN ? (1 - NLC_MARGIN) / n->bound[k] : 1;
+        if (k >= n->owned) continue;
         out->info.weakened += n->weakening[k] < 1;
         if (n->weakening[k] >= out->info.coupling) continue;
         out->info.coupling = n->weakening[k];
@@ -61,7 +63,9 @@ static double weakened_map(nlc_iteration *q, const double *x, double *y, nlc_out
         n->slope[c] = nlc_scaled_force(q, c) - n->force[c];
     }
     nlc_force_scales(q, true);
-    return nlc_relative_size(q, n->slope, &out->info.worst_contact);
+    const double change = nlc_relative_size(q, n->slope, &out->info.worst_contact);
+    nlc_is_over(n, out);
+    return change;
 }
 
 /* The iterate, capped. */
@@ -74,15 +78,33 @@ static void start_from_iterate(const nlc_iteration *q, double *x)
     }
 }
 
-/* Hertz's overlaps; returns the sum of their squares. */
-static double start_from_overlaps(const nlc_iteration *q, double *x)
+/* Hertz's overlaps. */
+static void start_from_overlaps(const nlc_iteration *q, double *x)
+{
+    for (int64_t c = 0; c < q->n->contact_count; c++) x[c] = q->overlap[c] * q->load;
+}
+
+/* The sum of the squares of those overlaps. */
+static double applied_overlaps(const nlc_iteration *q, const double *x)
 {
     double sum = 0;
-    for (int64_t c = 0; c < q->n->contact_count; c++) {
-        x[c] = q->overlap[c] * q->load;
-        sum += x[c] > 0 ? x[c] * x[c] : 0;
+    for (int64_t c = 0; c < q->n->contact_count; c++) sum += x[c] > 0 ? x[c] * x[c] : 0;
+    for (int64_t s = 0; s < q->n->straddling; s++) {
+        const double v = x[nlc_straddling(q->n)[s]];
+        sum -= v > 0 ? 0.5 * v * v : 0;
     }
+    nlc_sum_over_ranks(q->n, &sum, 1);
     return sum;
+}
+
+/* What is told of particles, of all ranks. */
+static void tell_weakened(nlc_network *n, nlc_outcome *out)
+{
+    double weakened = (double)out->info.weakened;
+    nlc_sum_over_ranks(n, &weakened, 1);
+    out->info.weakened = (int64_t)weakened;
+    out->info.coupling = -nlc_largest_over_ranks(n, -out->info.coupling, &out->info.weakest_particle);
+    nlc_is_over(n, out);
 }
 
 /*
@@ -117,11 +139,12 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
     nlc_network *n = q->n;
     const int64_t count = n->contact_count;
     double *x = n->spare[0], *y = n->spare[1], *best = n->spare[2], *iterate = n->spare[3], mark = INFINITY;
-    const double applied = start_from_overlaps(q, x);
     int start = GIVEN, waited = 0;
     nlc_anderson h;
+    start_from_overlaps(q, x);
+    const double applied = applied_overlaps(q, x);
     start_from_iterate(q, iterate);
-    nlc_anderson_start(&h, n, count, iterate, n->spare[4], NLC_FARTHEST); /* the iterate is looked at before the first step only */
+    nlc_anderson_start(&h, n, 1, iterate, n->spare[4], NLC_FARTHEST); /* the iterate is looked at before the first step only */
     nlc_anderson_reset(&h, FIRST_STEP);
     memcpy(x, best, (size_t)count * sizeof *x); /* that is the start given */
     out->status = NLC_WARNING_NOT_CONVERGED;
@@ -134,7 +157,8 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
             out->status = NLC_OK;
             break;
         }
-        const double norm = residual(x, y, count);
+        double norm = residual(x, y, count);
+        nlc_anderson_meet(&h, x, y, &norm);
         waited = norm < 0.01 * mark ? 0 : waited + 1;
         mark = waited == 0 ? norm : mark;
         if ((!h.pending && !is_good_start(start, norm, applied)) || (waited > PATIENCE && start < HERTZ)) {
@@ -157,5 +181,6 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
         }
         nlc_anderson_step(&h, x, y);
     }
-    if (out->info.weakened > 0) out->status |= NLC_WARNING_WEAKENED;
+    tell_weakened(n, out);
+    if (out->status >= 0 && out->info.weakened > 0) out->status |= NLC_WARNING_WEAKENED;
 }

@@ -751,6 +751,54 @@ START_TEST(updates)
 }
 END_TEST
 
+static int64_t calls, fails, fails_elsewhere; /* of callbacks: the number so far, of the one that fails, of that where another rank has */
+
+static int exchange(void *context, double *side)
+{
+    (void)context, (void)side;
+    return ++calls == fails ? 42 : 0;
+}
+
+static int reduce(void *context, double *values, int32_t count, int32_t operation)
+{
+    (void)context, (void)count, (void)operation;
+    if (++calls == fails_elsewhere) values[0] = 1;
+    return calls == fails ? 42 : 0;
+}
+
+/* A network shared out among ranks, of which this is the only one. */
+START_TEST(ranks)
+{
+    f.options.exchange = exchange;
+    WITH(f.options.owned_particles, 3, nlc_set_options(f.s.network, &f.options, &f.info), NLC_ERROR_NULL_FIELD,
+         offsetof(nlc_options, reduce));
+    f.options.exchange = 0, f.options.reduce = reduce;
+    WITH(f.options.owned_particles, 3, nlc_set_options(f.s.network, &f.options, &f.info), NLC_ERROR_NULL_FIELD,
+         offsetof(nlc_options, exchange));
+    f.options.reduce = 0;
+    WITH(f.options.owned_particles, 3, init(), NLC_ERROR_NULL_FIELD, offsetof(nlc_options, exchange));
+    f.options.exchange = exchange, f.options.reduce = reduce;
+    WITH(f.options.owned_particles, 5, init(), NLC_ERROR_OPTION, offsetof(nlc_options, owned_particles));
+    WITH(f.options.owned_particles, -1, init(), NLC_ERROR_OPTION, offsetof(nlc_options, owned_particles));
+    WITH(f.options.owned_particles, 1, init(), NLC_ERROR_GHOST, 1);
+    WITH(f.options.owned_particles, 1, nlc_set_options(f.s.network, &f.options, &f.info), NLC_ERROR_GHOST, 1);
+    WITH(f.options.owned_particles, 5, nlc_set_options(f.s.network, &f.options, &f.info), NLC_ERROR_OPTION,
+         offsetof(nlc_options, owned_particles));
+    ck_assert_int_eq(nlc_set_options(f.s.network, &f.options, &f.info), NLC_OK);
+    keep();
+    for (fails = 1; fails < 4; fails++) {
+        calls = 0;
+        demand(solve(), NLC_ERROR_CALLBACK, 42);
+        ck_assert_int_eq(calls, fails == 3 ? 5 : fails == 2 ? 3 : 2);
+    }
+    for (fails_elsewhere = 2; fails_elsewhere < 4; fails_elsewhere++) {
+        calls = 0;
+        demand(solve(), NLC_ERROR_REMOTE, -1);
+        ck_assert_int_eq(calls, fails_elsewhere);
+    }
+}
+END_TEST
+
 /* Must be the last test: every error of the list has been caused by one before. */
 START_TEST(every_error_was_met)
 {
@@ -806,6 +854,7 @@ int main(void)
     tcase_add_test(t, carrying);
     tcase_add_test(t, updates);
     tcase_add_test(t, empty_networks);
+    tcase_add_test(t, ranks);
     tcase_add_test(t, every_error_was_met);
     suite_add_tcase(suite, t);
     setenv("CK_FORK", "no", 1); /* every_error_was_met looks at what the others did */

@@ -129,6 +129,9 @@ START_TEST(values_are_for_good)
     ck_assert_int_eq(NLC_ERROR_SAME_PLACE, -32);
     ck_assert_int_eq(NLC_ERROR_CELL, -33);
     ck_assert_int_eq(NLC_ERROR_CAPACITY, -34);
+    ck_assert_int_eq(NLC_ERROR_GHOST, -35);
+    ck_assert_int_eq(NLC_ERROR_REMOTE, -36);
+    ck_assert_int_eq(NLC_ERROR_CALLBACK, -37);
 }
 END_TEST
 

@@ -11,7 +11,8 @@ import sys
 
 KINDS = {'double': 'real(c_double)', 'int32_t': 'integer(c_int32_t)', 'nlc_status': 'integer(c_int32_t)',
          'int64_t': 'integer(c_int64_t)', 'uint64_t': 'integer(c_int64_t)', 'size_t': 'integer(c_size_t)',
-         'ptrdiff_t': 'integer(c_intptr_t)', 'nlc_exchange_callback': 'type(c_funptr)', 'nlc_reduce_callback': 'type(c_funptr)', 'nlc_parallel_callback': 'type(c_funptr)'}
+         'ptrdiff_t': 'integer(c_intptr_t)', 'nlc_parallel_callback': 'type(c_funptr)',
+         'nlc_exchange_callback': 'type(c_funptr)', 'nlc_reduce_callback': 'type(c_funptr)'}
 BYTES = {'int32_t': 4}                                        # others: 8
 SCALARS = {'energy', 'reach', 'count'}                        # outputs that are one number
 OPTIONAL = {'info', 'options', 'F_wall', 'stiffness'}         # may be left out, beside what is said here:
