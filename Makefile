@@ -199,7 +199,7 @@ $(B)/tests/%.o: $(S)/tests/%.c
 	$(CC) $(DEPFLAGS) -I$(S)/tests -I$(S)/bench $(ALL_CPPFLAGS) -D_GNU_SOURCE -DNLC_SOURCE_DIR='"$(abspath $(S))"' $(CHECK_CFLAGS) \
 		-ffp-contract=off $(ALL_CFLAGS) -c $< -o $@
 $(B)/tests/%: $(B)/tests/%.o $(TEST_COMMON) $(BENCH_COMMON) $(STATIC)
-	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK_LIBS) $(LIBS)
+	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -pthread -o $@ $^ $(CHECK_LIBS) $(LIBS)
 
 check: lib packing $(FIGURES) $(BEDS) $(HYDROGEL) $(TESTS) $(addprefix $(B)/bench/,accuracy functions tradeoff scale) scale instructions) ## build and run every test (needs what `make setup` installs)
 	@S='$(abspath $(S))' B='$(abspath $(B))' CC='$(CC)' CXX='$(CXX)' FC='$(FC)' MAKE='$(MAKE)' EMULATOR='$(EMULATOR)' \

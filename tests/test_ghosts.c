@@ -1,0 +1,633 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * test_ghosts.c - networks shared out among ranks: the results of one network, and no rank left waiting.
+ *
+ * Ranks are threads, and their callbacks demand that all are in the same call (ranks.h); time limits catch what would wait for ever.
+ * Floating-point traps are on, on all threads.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "exact.h"
+#include "ranks.h"
+
+/* All models, and the half-space at undeformed points behind them. */
+#define MODELS 7
+static void choose(scene *s, int v)
+{
+    s->options.model = v < 6 ? v : NLC_MODEL_HALF_SPACE;
+    s->options.points = v == 6 ? NLC_POINTS_UNDEFORMED : NLC_POINTS_DEFORMED;
+}
+
+static bool has_energy(const scene *s)
+{
+    return s->options.model != NLC_MODEL_LOVE && !(s->options.model == NLC_MODEL_HALF_SPACE && s->options.points == 0);
+}
+
+static const int counts[] = {1, 2, 3, 4, 7};
+
+/* Slabs by number, at random, or at random with the last rank left empty. */
+static void share_out(ranks *w, const scene *s, int count, int how, rng *g)
+{
+    int *owner = calloc((size_t)s->particles, sizeof *owner);
+    for (int64_t k = 0; k < s->particles; k++)
+        owner[k] = how == 0 ? (int)(k * count / s->particles) : (int)rng_below(g, (uint64_t)(how == 2 && count > 1 ? count - 1 : count));
+    ranks_init(w, s, owner, count, g);
+    free(owner);
+}
+
+/* Largest |a - b| of values over contacts, on any rank, in units of the largest in the whole. */
+static double difference(const ranks *w, const double *whole, double *(*values)(rank *))
+{
+    double top = 0, worst = 0;
+    for (int64_t c = 0; c < w->whole->contacts; c++) top = fmax(top, fabs(whole[c]));
+    for (int q = 0; q < w->count; q++)
+        for (int64_t c = 0; c < w->rank[q].s.contacts; c++)
+            worst = fmax(worst, fabs(values(&w->rank[q])[c] - whole[w->rank[q].contact[c]]));
+    return top > 0 ? worst / top : worst;
+}
+
+static double *forces(rank *r)
+{
+    return r->s.force;
+}
+
+static double *changes(rank *r)
+{
+    return r->change;
+}
+
+/* How often a number is told, and that number. */
+static int told(const ranks *w, size_t field, int64_t *number)
+{
+    int found = 0;
+    for (int q = 0; q < w->count; q++) {
+        int64_t v;
+        memcpy(&v, (const char *)&w->rank[q].info + field, sizeof v);
+        if (v >= 0) *number = v;
+        found += v >= 0;
+    }
+    return found;
+}
+
+/* What all ranks say must be the same. */
+static void agree(const ranks *w)
+{
+    const nlc_info *a = &w->rank[0].info;
+    int64_t number;
+    for (int q = 0; q < w->count; q++) {
+        const nlc_info *b = &w->rank[q].info;
+        ck_assert_int_eq(w->rank[q].status, w->rank[0].status);
+        ck_assert(a->sweeps == b->sweeps && a->active == b->active && a->weakened == b->weakened && a->blocks == b->blocks);
+        nlc_assert_same(a->residual, b->residual);
+        nlc_assert_same(a->lambda_lower, b->lambda_lower);
+        nlc_assert_same(a->lambda_upper, b->lambda_upper);
+        nlc_assert_same(a->coupling, b->coupling);
+        ck_assert_int_eq(b->culprit, a->culprit);
+        ck_assert(rank_calls(&w->rank[q]) == rank_calls(&w->rank[0]) && w->rank[q].exchanges == w->rank[q].sums);
+    }
+    if (a->weakened > 0) ck_assert_int_ge(told(w, offsetof(nlc_info, weakest_particle), &number), 1);
+    else ck_assert_int_eq(told(w, offsetof(nlc_info, weakest_particle), &number), 0);
+}
+
+/* The whole and its ranks, from zero or from the displacements there are. */
+static void solve_both(scene *s, ranks *w, nlc_status *status, nlc_info *info)
+{
+    *status = scene_solve(s, info);
+    ranks_run(w, rank_solve);
+    agree(w);
+}
+
+/*
+ * Tolerance 1e-13 unless said otherwise, which makes both differ by 2e-13 of the forces nearby and by what rounding makes of 1/(1 - lambda).  Whether
+ * that counts as NLC_WARNING_ROUNDING may differ.
+ */
+static void compare(scene *s, int count, int how, double allowed, rng *g, const char *label)
+{
+    ranks w;
+    nlc_info info;
+    nlc_status status;
+    if (s->options.tolerance <= 0) s->options.tolerance = 1e-13;
+    s->network = 0;
+    share_out(&w, s, count, how, g);
+    ranks_run(&w, rank_build);
+    solve_both(s, &w, &status, &info);
+    const rank *first = &w.rank[0];
+    const double d = difference(&w, s->force, forces);
+    if (verbose()) {
+        printf("%s, %d ranks: status %d %d, %jd %jd sweeps, %jd exchanges, lambda %.4f %.4f, difference %.1e\n", label, count, status,
+               first->status, (intmax_t)info.sweeps, (intmax_t)first->info.sweeps, (intmax_t)first->exchanges,
+               first->info.lambda_lower, first->info.lambda_upper, d);
+        fflush(stdout);
+    }
+    ck_assert_int_eq(first->status & ~NLC_WARNING_ROUNDING, status & ~NLC_WARNING_ROUNDING);
+    ck_assert_msg(d <= allowed, "%s, %d ranks: forces differ by %g", label, count, d);
+    int64_t active = 0;
+    for (int64_t c = 0; c < s->contacts; c++) active += s->force[c] > 0;
+    ck_assert_int_eq(first->info.active, active);
+    ck_assert_int_eq(first->info.weakened, info.weakened);
+    const int64_t sweeps = first->info.sweeps, more = first->exchanges - sweeps;
+    if (s->options.method == NLC_METHOD_FIXED_POINT) ck_assert_int_le(more, sweeps + 2);
+    else if (status & NLC_WARNING_WEAKENED) ck_assert_int_le(more, 20 * sweeps);
+    else ck_assert_int_le(more, first->info.lambda_lower < 0.7 ? 12 : 12 + 2 * 17);
+    ranks_free(&w);
+}
+
+/* Walls and rigid ones of all sizes; a packing; a crystal; spheres that touch themselves and each other; one that does. */
+#define SCENES 5
+static void make(scene *s, int v, int which, rng *g)
+{
+    scene_init(s);
+    choose(s, v);
+    if (which == 0) scene_cluster(s, g, 11, 0.6);
+    if (which == 1) scene_packing(s, "b_die125_rd0.70.csv", 0.3);
+    if (which == 2) scene_lattice(s, BODY_CENTRED, 3, 1, 0.46, 0.05, 1e-3, g);
+    if (which == 3) {
+        const int32_t a = scene_material(s, 5e9, 0.1), b = scene_material(s, 1e9, 0.45);
+        const int32_t p = scene_particle(s, 1e-4, a), q = scene_particle(s, 1.7e-4, b);
+        scene_contact(s, p, p, 2e-6, 1, 2, 3);
+        scene_contact(s, p, q, 3e-6, -3, 0, 1);
+        scene_contact(s, q, q, 1e-6, 0, -1, 0);
+        scene_contact(s, p, p, 4e-6, -1, 1, -0.3);
+        scene_contact(s, q, p, 4e-6, 2, 0.1, 1);
+    }
+    if (which == 4) scene_cell(s, BODY_CENTRED, 1, 1e6, 0.4, (const double[]){0.96, 0.97, 0.94});
+}
+
+START_TEST(same_forces)
+{
+    rng g = {(uint64_t)_i + 1};
+    for (int which = 0; which < SCENES; which++)
+        for (int method = 0; method < 2; method++)
+            for (int k = 0; k < 5; k++) {
+                char label[80];
+                scene s;
+                make(&s, _i, which, &g);
+                s.options.method = method;
+                snprintf(label, sizeof label, "model %d, method %d, scene %d", _i, method, which);
+                compare(&s, counts[k], (k + which) % 3, 1e-12, &g, label);
+                scene_free(&s);
+            }
+}
+END_TEST
+
+/* Up to the end of the stable branch, and beyond it. */
+START_TEST(loads)
+{
+    const double factors[] = {0.5, 0.9, 0.99, 0.999, 1.5};
+    rng g = {(uint64_t)_i + 1};
+    scene s;
+    scene_init(&s);
+    if (_i == 0) scene_lattice(&s, BODY_CENTRED, 3, 1, 0.46, 0.05, 1e-3, &g);
+    if (_i == 1) scene_lattice(&s, FACE_CENTRED, 3, 1, 0.46, 0.05, 1e-3, &g);
+    if (_i == 2) scene_packing(&s, "b_die125_rd0.80.csv", 0.3);
+    for (int m = 0; m < 2 && _i == 2; m++) s.rows[m].poisson = 0.45;
+    const double end = (double)exact_end(&s, 200, 1e-7L);
+    for (int l = 0; l < 5; l++) {
+        scene t;
+        scene_init(&t);
+        t = s;
+        t.overlap = malloc((size_t)s.contacts * sizeof *t.overlap);
+        t.force = t.nonlocal = 0, t.memory = 0;
+        for (int64_t c = 0; c < s.contacts; c++) t.overlap[c] = end * factors[l] * s.overlap[c];
+        for (int k = 0; k < 5; k++) {
+            char label[80];
+            snprintf(label, sizeof label, "scene %d at %.1f %% of the end", _i, 100 * factors[l]);
+            compare(&t, counts[k], k % 3, 1e-12, &g, label);
+        }
+        free(t.overlap), free(t.force), free(t.nonlocal), free(t.memory);
+    }
+    scene_free(&s);
+}
+END_TEST
+
+START_TEST(beyond_the_end)
+{
+    rng g = {(uint64_t)_i + 1};
+    for (int k = 0; k < 5; k += 2) {
+        char label[80];
+        scene s;
+        scene_init(&s);
+        choose(&s, _i);
+        scene_lattice(&s, BODY_CENTRED, 3, 1, 0.46, 0.25, 1e-3, &g);
+        snprintf(label, sizeof label, "beyond the end, model %d", _i);
+        /* weakened, the sphere's equations are not solved to better than 1e-4 here, nor the point force's to 1e-13 each time */
+        if (_i >= NLC_MODEL_SPHERE) s.options.tolerance = 1e-11;
+        compare(&s, counts[k], k % 3, _i == NLC_MODEL_SPHERE ? 1e-3 : 1e-11, &g, label);
+        scene_free(&s);
+    }
+}
+END_TEST
+
+/* Sweep, energy and the three tangents, against those of the whole. */
+START_TEST(other_functions)
+{
+    rng g = {(uint64_t)_i + 9};
+    for (int which = 0; which < SCENES; which++)
+        for (int k = 0; k < 5; k++) {
+            scene s;
+            ranks w;
+            nlc_info info = {.struct_size = sizeof info};
+            nlc_status status;
+            make(&s, _i, which, &g);
+            s.options.tolerance = 1e-12;
+            share_out(&w, &s, counts[k], (k + which) % 3, &g);
+            ranks_run(&w, rank_build);
+            solve_both(&s, &w, &status, &info);
+            for (int q = 0; q < w.count; q++) /* the whole's forces: results are then the same but for rounding */
+                for (int64_t c = 0; c < w.rank[q].s.contacts; c++) w.rank[q].s.force[c] = s.force[w.rank[q].contact[c]];
+            double *side = calloc(2 * (size_t)s.contacts, sizeof *side), *change = calloc((size_t)s.contacts, sizeof *change);
+            double *stiffness = calloc((size_t)s.particles, sizeof *stiffness), energy = 0, top = 0;
+
+            ck_assert_int_eq(nlc_sweep(s.network, side, s.force, s.overlap, s.normal, &info), NLC_OK);
+            ranks_run(&w, rank_sweep);
+            agree(&w);
+            ck_assert_int_eq(w.rank[0].status, NLC_OK);
+            ck_assert_int_eq(w.rank[0].exchanges, 2); /* to begin with, and the displacements */
+            ck_assert_int_eq(w.rank[0].info.active, info.active);
+            for (int64_t e = 0; e < 2 * s.contacts; e++) top = fmax(top, fabs(side[e]));
+            for (int q = 0; q < w.count; q++) /* the same sums on the same particles, in another order */
+                for (int64_t e = 0; e < 2 * w.rank[q].s.contacts; e++) {
+                    const rank *r = &w.rank[q];
+                    nlc_assert_abs(r->displacement[e], side[2 * r->contact[e / 2] + (e % 2 ^ r->swapped[e / 2])], 1e-14 * top);
+                }
+
+            status = nlc_energy(s.network, &energy, s.force, s.overlap, s.normal, &info);
+            ranks_run(&w, rank_energy);
+            agree(&w);
+            ck_assert_int_eq(w.rank[0].status, status);
+            for (int q = 0; q < w.count && status >= 0; q++) nlc_assert_rel(w.rank[q].energy, energy, 1e-13);
+
+            status = nlc_tangent(s.network, change, s.overlap, s.force, s.normal, &info);
+            ranks_run(&w, rank_tangent);
+            agree(&w);
+            ck_assert_int_eq(w.rank[0].status, status);
+            ck_assert(status < 0 || difference(&w, change, changes) <= 1e-11); /* residual 1e-13, lambda up to 0.9 */
+
+            status = nlc_tangent_inverse(s.network, change, s.overlap, s.force, s.normal, &info);
+            for (int64_t c = 0; c < s.contacts; c++) change[c] = 0;
+            status = nlc_tangent_inverse(s.network, change, s.force, s.force, s.normal, &info);
+            for (int q = 0; q < w.count; q++)
+                for (int64_t c = 0; c < w.rank[q].s.contacts; c++) w.rank[q].s.overlap[c] = w.rank[q].s.force[c];
+            ranks_run(&w, rank_tangent_inverse);
+            agree(&w);
+            ck_assert_int_eq(w.rank[0].status, status);
+            ck_assert(status < 0 || difference(&w, change, changes) <= 1e-14);
+
+            status = nlc_tangent_bound(s.network, stiffness, s.force, s.normal, &info);
+            ranks_run(&w, rank_tangent_bound);
+            agree(&w);
+            ck_assert_int_eq(w.rank[0].status, status);
+            if (status >= 0) nlc_assert_rel(w.rank[0].info.lambda_upper, info.lambda_upper, 1e-12);
+            for (int q = 0; q < w.count && status >= 0; q++)
+                for (int64_t p = 0; p < w.rank[q].s.particles; p++)
+                    nlc_assert_rel(w.rank[q].stiffness[p], p < w.rank[q].owned ? stiffness[w.rank[q].particle[p]] : 0, 1e-12);
+            free(side), free(change), free(stiffness);
+            ranks_free(&w);
+            scene_free(&s);
+        }
+}
+END_TEST
+
+/* Everything that a function may write, and what a rank must find of it afterwards. */
+typedef struct kept {
+    double *force, *nonlocal, *displacement, *change, *stiffness, energy;
+} kept;
+
+static double *copy(const double *a, int64_t count)
+{
+    double *b = malloc((size_t)(count > 0 ? count : 1) * sizeof *b);
+    if (count > 0) memcpy(b, a, (size_t)count * sizeof *b);
+    return b;
+}
+
+static kept keep(const rank *r)
+{
+    const int64_t n = r->s.contacts;
+    return (kept){copy(r->s.force, n),    copy(r->s.nonlocal, n), copy(r->displacement, 2 * n),
+                  copy(r->change, n), copy(r->stiffness, r->s.particles), r->energy};
+}
+
+static bool same(const double *a, const double *b, int64_t count)
+{
+    return count == 0 || memcmp(a, b, (size_t)count * sizeof *a) == 0;
+}
+
+static bool is_kept(const rank *r, const kept *k)
+{
+    const int64_t n = r->s.contacts;
+    return same(r->s.force, k->force, n) && same(r->s.nonlocal, k->nonlocal, n) && same(r->displacement, k->displacement, 2 * n) &&
+           same(r->change, k->change, n) && same(r->stiffness, k->stiffness, r->s.particles) && same(&r->energy, &k->energy, 1);
+}
+
+/* Puts back what there was, and forgets it. */
+static void put_back(rank *r, kept *k)
+{
+    const size_t n = (size_t)r->s.contacts * sizeof(double);
+    if (n > 0) memcpy(r->s.force, k->force, n);
+    if (n > 0) memcpy(r->s.nonlocal, k->nonlocal, n);
+    free(k->force), free(k->nonlocal), free(k->displacement), free(k->change), free(k->stiffness);
+}
+
+#define RANKS 3
+
+/* A task with calls that fail: the ranks where one does, at which call.  culprit: of these, 0 for what the callback returned. */
+static void fail_once(ranks *w, void (*task)(rank *), int64_t at, unsigned where, bool last)
+{
+    kept k[RANKS];
+    for (int q = 0; q < RANKS; q++) {
+        k[q] = keep(&w->rank[q]);
+        w->rank[q].fail_at = where >> q & 1 ? at : 0;
+    }
+    ranks_run(w, task);
+    for (int q = 0; q < RANKS; q++) {
+        const rank *r = &w->rank[q];
+        const bool here = where >> q & 1;
+        ck_assert_int_eq(rank_calls(r), rank_calls(&w->rank[0]));
+        ck_assert_int_le(rank_calls(r), at + 3);
+        if (!here && last) {
+            ck_assert_int_ge(r->status, 0);
+        } else {
+            ck_assert_int_eq(r->status, here ? NLC_ERROR_CALLBACK : NLC_ERROR_REMOTE);
+            ck_assert_int_eq(r->info.culprit, here ? 1000 + q : -1);
+            ck_assert(is_kept(r, &k[q]));
+        }
+        put_back(&w->rank[q], &k[q]);
+        w->rank[q].fail_at = 0;
+    }
+}
+
+static void (*const tasks[])(rank *) = {rank_solve, rank_sweep, rank_energy, rank_tangent, rank_tangent_inverse, rank_tangent_bound};
+#define TASKS 6
+
+/* A scene with straddling contacts on all ranks, solved. */
+static void begin_failing(scene *s, ranks *w, int v, int which)
+{
+    rng g = {4};
+    make(s, v, which, &g);
+    s->options.tolerance = 1e-8;
+    share_out(w, s, RANKS, 1, &g);
+    ranks_run(w, rank_build);
+    ranks_run(w, rank_solve);
+    agree(w);
+}
+
+/* Each call fails: on one rank, and on any set of them at the same time. */
+START_TEST(failing_callbacks)
+{
+    scene s;
+    ranks w;
+    begin_failing(&s, &w, _i, 0);
+    for (int f = -2; f < TASKS; f++) { /* to begin with from the solution, near it, and from nothing */
+        void (*const task)(rank *) = tasks[f < 0 ? 0 : f];
+        if (f > 1 && !has_energy(&s)) continue;
+        for (int q = 0; q < RANKS && f < 1; q++)
+            for (int64_t c = 0; c < w.rank[q].s.contacts; c++) {
+                if (f == -1) w.rank[q].s.overlap[c] *= 1.01;
+                if (f == 0) w.rank[q].s.nonlocal[c] = 0;
+            }
+        kept k[RANKS];
+        for (int q = 0; q < RANKS; q++) k[q] = keep(&w.rank[q]);
+        ranks_run(&w, task);
+        agree(&w);
+        ck_assert_int_eq(w.rank[0].status & ~NLC_WARNING_CLOSE, NLC_OK);
+        const int64_t calls = rank_calls(&w.rank[0]);
+        for (int q = 0; q < RANKS; q++) put_back(&w.rank[q], &k[q]);
+        for (int64_t at = 1; at <= calls; at++) {
+            fail_once(&w, task, at, 1u << at / 3 % RANKS, at == calls);
+            fail_once(&w, task, at, 1 + (unsigned)(at / 3 + at) % 7, at == calls);
+        }
+        if (f != 0) continue;
+        ranks_run(&w, rank_solve); /* nothing is left of it */
+        agree(&w);
+        ck_assert_int_eq(w.rank[0].status & ~NLC_WARNING_CLOSE, NLC_OK);
+    }
+    ranks_free(&w);
+    scene_free(&s);
+}
+END_TEST
+
+/* Beyond the end of the stable branch there are too many calls for all of them. */
+START_TEST(failing_beyond)
+{
+    rng g = {5};
+    scene s;
+    ranks w;
+    scene_init(&s);
+    choose(&s, _i == 0 ? NLC_MODEL_GONZALEZ_CUITINO : NLC_MODEL_LOVE);
+    s.options.tolerance = 1e-6;
+    scene_lattice(&s, BODY_CENTRED, 3, 1, 0.46, 0.2, 1e-3, &g);
+    share_out(&w, &s, RANKS, 1, &g);
+    ranks_run(&w, rank_build);
+    kept k[RANKS];
+    for (int q = 0; q < RANKS; q++) k[q] = keep(&w.rank[q]);
+    ranks_run(&w, rank_solve);
+    agree(&w);
+    ck_assert(w.rank[0].status & NLC_WARNING_WEAKENED);
+    const int64_t calls = rank_calls(&w.rank[0]);
+    for (int q = 0; q < RANKS; q++) put_back(&w.rank[q], &k[q]);
+    for (int64_t at = 1; at < calls; at += 1 + (int64_t)rng_below(&g, 1 + (uint64_t)calls / 30))
+        fail_once(&w, rank_solve, at, 1 + (unsigned)rng_below(&g, 6), false);
+    ranks_free(&w);
+    scene_free(&s);
+}
+END_TEST
+
+/* After a task in which one rank finds something wrong with what it was given. */
+static void demand_error(ranks *w, void (*task)(rank *), int where, nlc_status status, int64_t culprit)
+{
+    kept k[RANKS];
+    for (int q = 0; q < RANKS; q++) k[q] = keep(&w->rank[q]);
+    ranks_run(w, task);
+    for (int q = 0; q < RANKS; q++) {
+        const rank *r = &w->rank[q];
+        ck_assert_int_eq(r->status, q == where ? status : NLC_ERROR_REMOTE);
+        ck_assert_int_eq(r->info.culprit, q == where ? culprit : -1);
+        ck_assert(is_kept(r, &k[q]));
+        put_back(&w->rank[q], &k[q]);
+    }
+}
+
+#define WITH(lvalue, bad, task, status, culprit)                                                                               \
+    do {                                                                                                                       \
+        __typeof__(lvalue) good_ = (lvalue);                                                                                   \
+        (lvalue) = (bad);                                                                                                      \
+        demand_error(&w, task, q, status, culprit);                                                                            \
+        (lvalue) = good_;                                                                                                      \
+    } while (0)
+
+static void no_info(rank *r)
+{
+    scene *s = &r->s;
+    nlc_info info = {.struct_size = r->number == 1 ? 3 : sizeof info};
+    r->info.culprit = -1;
+    r->status = nlc_solve(s->network, s->force, s->nonlocal, s->overlap, s->normal, &info);
+}
+
+static void no_forces(rank *r)
+{
+    scene *s = &r->s;
+    r->status = nlc_solve(s->network, r->number == 1 ? 0 : s->force, s->nonlocal, s->overlap, s->normal, &r->info);
+}
+
+START_TEST(wrong_arguments)
+{
+    scene s;
+    ranks w;
+    begin_failing(&s, &w, _i, 0);
+    const bool places = s.options.model == NLC_MODEL_HALF_SPACE && s.options.points == 0;
+    for (int q = 0; q < RANKS; q++) {
+        rank *r = &w.rank[q];
+        scene *t = &r->s;
+        const int64_t c = t->contacts / 2;
+        WITH(t->overlap[c], NAN, rank_solve, NLC_ERROR_OVERLAP, c);
+        WITH(t->overlap[c], INFINITY, rank_solve, NLC_ERROR_OVERLAP, c);
+        WITH(t->overlap[c], 1e300, rank_solve, NLC_ERROR_RANGE, -1);
+        WITH(t->normal[3 * c], NAN, rank_solve, NLC_ERROR_NORMAL, c);
+        WITH(t->normal[3 * c], 3, rank_solve, NLC_ERROR_NORMAL, c);
+        WITH(t->nonlocal[c], -INFINITY, rank_solve, NLC_ERROR_NONLOCAL, c);
+        WITH(t->force[c], NAN, rank_sweep, NLC_ERROR_FORCE, c);
+        WITH(t->normal[3 * c + 1], NAN, rank_sweep, NLC_ERROR_NORMAL, c);
+        WITH(t->overlap[c], NAN, rank_sweep, NLC_ERROR_OVERLAP, c);
+        if (places) WITH(r->displacement[2 * c + 1], NAN, rank_sweep, NLC_ERROR_NONLOCAL, c);
+        if (!has_energy(&s)) continue;
+        WITH(t->force[c], -1, rank_energy, NLC_ERROR_FORCE, c);
+        WITH(t->overlap[c], NAN, rank_energy, NLC_ERROR_OVERLAP, c);
+        WITH(t->overlap[c], NAN, rank_tangent, NLC_ERROR_OVERLAP, c);
+        WITH(t->force[c], NAN, rank_tangent, NLC_ERROR_FORCE, c);
+        WITH(t->overlap[c], NAN, rank_tangent_inverse, NLC_ERROR_FORCE, c);
+        WITH(t->normal[3 * c + 2], 2, rank_tangent_bound, NLC_ERROR_NORMAL, c);
+    }
+    const int q = 1;
+    demand_error(&w, no_forces, 1, NLC_ERROR_NULL, 1);
+    demand_error(&w, no_info, 1, NLC_ERROR_STRUCT_SIZE, -1);
+    (void)q;
+    ranks_run(&w, rank_solve); /* it was not the network's fault */
+    agree(&w);
+    ck_assert_int_eq(w.rank[0].status & ~NLC_WARNING_CLOSE, NLC_OK);
+    ranks_free(&w);
+    scene_free(&s);
+}
+END_TEST
+
+static void set_tolerance(rank *r)
+{
+    r->s.options.tolerance = r->number == 1 ? 1e-4 : 1e-8;
+    r->status = nlc_set_options(r->s.network, &r->s.options, 0);
+}
+
+static void solve_or_sweep(rank *r)
+{
+    r->number == 1 ? rank_solve(r) : rank_sweep(r);
+}
+
+/* Errors that only all ranks together can see, and ones that a sweep finds. */
+START_TEST(other_errors)
+{
+    scene s;
+    ranks w;
+    begin_failing(&s, &w, NLC_MODEL_GONZALEZ_CUITINO, 0);
+    ranks_run(&w, solve_or_sweep);
+    for (int q = 0; q < RANKS; q++) ck_assert_int_eq(w.rank[q].status, NLC_ERROR_OPTION);
+    ranks_run(&w, set_tolerance);
+    for (int f = 0; f < TASKS; f++) {
+        ranks_run(&w, tasks[f]);
+        for (int q = 0; q < RANKS; q++) ck_assert_int_eq(w.rank[q].status, NLC_ERROR_OPTION);
+        for (int64_t at = 1; at <= rank_calls(&w.rank[0]); at++) { /* and there, too, nobody waits for one whose call has failed */
+            w.rank[1].fail_at = at;
+            ranks_run(&w, tasks[f]);
+            ck_assert(w.rank[1].status == NLC_ERROR_CALLBACK || w.rank[1].status == NLC_ERROR_OPTION);
+            ck_assert(w.rank[0].status == NLC_ERROR_REMOTE || w.rank[0].status == NLC_ERROR_OPTION);
+            w.rank[1].fail_at = 0;
+        }
+    }
+    ranks_run(&w, rank_build);
+    for (int q = 0; q < RANKS; q++) { /* overlaps on one, stiffnesses on another: too large together */
+        for (int64_t c = 0; c < w.rank[q].s.contacts; c++) w.rank[q].s.overlap[c] = q == 1 ? 1e200 : 1e-200;
+        for (int64_t c = 0; c < w.rank[q].s.contacts; c++) w.rank[q].s.nonlocal[c] = 0;
+    }
+    ranks_run(&w, rank_solve);
+    for (int q = 0; q < RANKS; q++) ck_assert(w.rank[q].status < 0);
+    ranks_free(&w);
+    scene_free(&s);
+
+    begin_failing(&s, &w, NLC_MODEL_GONZALEZ_CUITINO, 1); /* two contacts of one particle in the same direction */
+    for (int q = 0; q < RANKS; q++) {
+        rank *r = &w.rank[q];
+        scene *t = &r->s;
+        int64_t c = 0, d = -1;
+        for (; d < 0; c++)
+            for (int64_t e = 0; e < c && d < 0 && t->i[c] < r->owned; e++) d = t->i[e] == t->i[c] ? e : -1;
+        double old[3];
+        memcpy(old, t->normal + 3 * --c, sizeof old);
+        memcpy(t->normal + 3 * c, t->normal + 3 * d, sizeof old);
+        for (int f = 0; f < TASKS - 1; f++) {
+            ranks_run(&w, tasks[f]);
+            for (int p = 0; p < RANKS; p++) ck_assert_int_eq(w.rank[p].status, p == q ? NLC_ERROR_COINCIDENT : NLC_ERROR_REMOTE);
+            ck_assert(r->info.culprit == c || r->info.culprit == d);
+        }
+        memcpy(t->normal + 3 * c, old, sizeof old);
+    }
+    ranks_free(&w);
+    scene_free(&s);
+}
+END_TEST
+
+/* A scene that moves: from the displacements of the last step, and copies of a contact that differ by rounding. */
+START_TEST(steps)
+{
+    rng g = {6};
+    scene s;
+    ranks w;
+    make(&s, _i, 1, &g);
+    s.options.tolerance = 1e-10;
+    scene_build(&s);
+    share_out(&w, &s, 4, 0, &g);
+    ranks_run(&w, rank_build);
+    for (int step = 0; step < 20; step++) { /* every other one changes but rounding: the start is the solution */
+        nlc_status status;
+        nlc_info info;
+        for (int64_t c = 0; c < s.contacts && step % 2 == 0; c++) s.overlap[c] *= 1 + 1e-4 * rng_uniform(&g, -1, 1);
+        for (int q = 0; q < w.count; q++)
+            for (int64_t c = 0; c < w.rank[q].s.contacts; c++)
+                w.rank[q].s.overlap[c] = s.overlap[w.rank[q].contact[c]] * (1 + 0x1p-52 * (double)rng_below(&g, 2));
+        solve_both(&s, &w, &status, &info);
+        const double d = difference(&w, s.force, forces);
+        if (verbose())
+            printf("model %d, step %d: %jd %jd sweeps, %jd exchanges, difference %.1e\n", _i, step, (intmax_t)info.sweeps,
+                   (intmax_t)w.rank[0].info.sweeps, (intmax_t)w.rank[0].exchanges, d);
+        ck_assert_int_eq(w.rank[0].status, status);
+        ck_assert(d <= 2e-10);
+        ck_assert_int_le(w.rank[0].info.sweeps, info.sweeps + 3);
+        ck_assert_int_le(w.rank[0].exchanges, w.rank[0].info.sweeps + (step == 0 ? 20 : 11));
+        if (step % 2 == 1 && (_i == NLC_MODEL_GONZALEZ_CUITINO || _i > NLC_MODEL_SPHERE)) ck_assert_int_eq(w.rank[0].exchanges, 4);
+    }
+    ranks_free(&w);
+    scene_free(&s);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("ghosts");
+    TCase *t = tcase_create("forces");
+    tcase_add_checked_fixture(t, fp_trap, fp_untrap);
+    time_limit(t, 120);
+    tcase_add_loop_test(t, same_forces, 0, MODELS);
+    tcase_add_loop_test(t, loads, 0, 3);
+    tcase_add_loop_test(t, beyond_the_end, 0, MODELS);
+    tcase_add_loop_test(t, other_functions, 0, MODELS);
+    tcase_add_loop_test(t, steps, 0, MODELS);
+    suite_add_tcase(suite, t);
+    t = tcase_create("errors");
+    tcase_add_checked_fixture(t, fp_trap, fp_untrap);
+    time_limit(t, 120);
+    tcase_add_loop_test(t, failing_callbacks, 0, MODELS);
+    tcase_add_loop_test(t, failing_beyond, 0, 2);
+    tcase_add_loop_test(t, wrong_arguments, 0, MODELS);
+    tcase_add_test(t, other_errors);
+    suite_add_tcase(suite, t);
+    return run_suite(suite);
+}
