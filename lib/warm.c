@@ -165,7 +165,7 @@ bool nlc_is_solved(nlc_network *n, const double *overlap, const double *normal, 
     if (r.lost) return false;
     const double limit = 1 - NLC_SAFETY * r.ratio / tolerance;
     if (r.grown || upper > (limit < 1 - NLC_MARGIN ? limit : 1 - NLC_MARGIN)) {
-        if (active > n->contact_count / 4 * 3) hand_over(&q); /* else contacts are left out */
+        if (nlc_is_shared(n) || active > n->contact_count / 4 * 3) hand_over(&q); /* else contacts are left out */
         return false;
     }
     info.sweeps = out->info.sweeps;
