@@ -129,6 +129,7 @@ static void compare(scene *s, int count, int how, double allowed, rng *g, const 
     ck_assert_int_eq(first->info.active, active);
     ck_assert_int_eq(first->info.weakened, info.weakened);
     const int64_t sweeps = first->info.sweeps, more = first->exchanges - sweeps;
+    ck_assert_int_le(sweeps, info.sweeps + 3 + info.sweeps / 5);
     if (s->options.method == NLC_METHOD_FIXED_POINT) ck_assert_int_le(more, sweeps + 2);
     else if (status & NLC_WARNING_WEAKENED) ck_assert_int_le(more, 20 * sweeps);
     else ck_assert_int_le(more, first->info.lambda_lower < 0.7 ? 12 : 12 + 2 * 17);
