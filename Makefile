@@ -61,7 +61,7 @@ PC := $(B)/nlcontact.pc
 CMAKE := $(B)/nlcontact-config.cmake $(B)/nlcontact-config-version.cmake
 MAN := $(sort $(wildcard $(S)/man/*.[37]))
 
-.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist deb distcheck clean hydrogel hydrogel-runs bench-large plots setup-plots record-instructions FORCE
+.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist deb distcheck clean hydrogel hydrogel-runs bench-large plots setup-plots record-instructions setup-examples FORCE
 all: lib packing ## build the libraries and the packing program
 lib: $(STATIC) $(SHARED) ## build the static and the shared library
 
@@ -178,13 +178,27 @@ figures: $(FIGURES) $(BEDS) ## the figures of [GC] and [MC] as pictures and data
 
 # ---- other languages; Fortran only where there is a compiler
 EXAMPLES := $(B)/examples/packing-c++ $(if $(shell command -v $(FC) 2>/dev/null),$(B)/examples/packing-fortran)
+
+# LAMMPS as a host, where there is one that this compiler's programs can be linked with
+LAMMPS_SRC := $(sort $(wildcard $(S)/examples/lammps/*.c))
+LAMMPS_PKG = $(shell $(PKG_CONFIG) --$(1) liblammps mpi-c 2>/dev/null)
+ifeq ($(shell $(PKG_CONFIG) --exists liblammps mpi-c 2>/dev/null && $(CC) -dumpmachine | cut -d- -f1),$(shell uname -m))
+EXAMPLES += $(B)/examples/nlc-lammps
+endif
+$(B)/examples/lammps/%.o: $(S)/examples/lammps/%.c
+	@mkdir -p $(@D)
+	$(CC) $(DEPFLAGS) $(ALL_CPPFLAGS) -D_POSIX_C_SOURCE=200809L $(call LAMMPS_PKG,cflags) $(ALL_CFLAGS) -c $< -o $@
+$(B)/examples/nlc-lammps: $(LAMMPS_SRC:$(S)/%.c=$(B)/%.o) $(STATIC)
+	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(call LAMMPS_PKG,libs) $(LIBS)
+-include $(wildcard $(B)/examples/lammps/*.d)
+
 $(B)/examples/packing-c++: $(S)/examples/packing.cc $(S)/examples/nlcontact.hpp $(S)/include/nlcontact.h $(STATIC)
 	@mkdir -p $(@D)
 	$(CXX) -std=c++11 -I$(S)/include $(CPPFLAGS) $(WARNINGS) $(CXXFLAGS) $(LDFLAGS) -o $@ $(filter %.cc %.a,$^) $(LIBS)
 $(B)/examples/packing-fortran: $(S)/include/nlcontact.f90 $(S)/examples/packing.f90 $(STATIC)
 	@mkdir -p $(@D)
 	$(FC) -J$(@D) $(WARNINGS) $(FFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
-examples: $(EXAMPLES) ## the packing in C++ and, with a compiler for it, in Fortran; Python needs no building
+examples: $(EXAMPLES) ## the packing in C++ and, with a compiler for it, in Fortran, nlc-lammps where LAMMPS is; Python needs no building
 
 # ---- tests
 TEST_SRC := $(sort $(wildcard $(S)/tests/test_*.c))
@@ -226,6 +240,9 @@ abi-dump: $(SHARED)
 
 stress: $(B)/tests/test_stress ## the solver on its whole grid of scenes, with a table; a few minutes
 	@NLC_TEST_FULL=1 $(EMULATOR) $<
+
+setup-examples: ## install LAMMPS and its library for nlc-lammps
+	@sh $(S)/examples/lammps/setup
 
 setup: ## install what the tests need with the system's package manager
 	@sh $(S)/tests/setup

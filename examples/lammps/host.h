@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * host.h - LAMMPS as the host of the library: what the files of nlc-lammps share.
+ *
+ *     nlc-lammps.c   the program: LAMMPS with a callback between its own forces and its integrator
+ *     settings.c     LAMMPS variables -> options, materials, walls
+ *     contacts.c     LAMMPS' neighbour list -> contacts and network, whenever that is needed
+ *     step.c         the callback: overlaps -> forces, and what is left for LAMMPS to show
+ *     output.c       thermo, per-atom values and a file of contacts
+ */
+#ifndef NLC_LAMMPS_HOST_H
+#define NLC_LAMMPS_HOST_H
+
+#include <mpi.h>
+#define LAMMPS_LIB_MPI
+#include <lammps/library.h>
+#include <nlcontact.h>
+#include <stdbool.h>
+
+#define FIX "nlc" /* the fix external that this program drives, and what its variables' names begin with */
+
+enum { WALLS = 6, NAME = 64 };
+
+/* From the script.  A wall is missing where its variable is. */
+typedef struct settings {
+    nlc_options options;
+    double reach, slack; /* gaps that may close; how far a particle may go before they are looked for anew [m] */
+    int64_t every;       /* steps between outputs that cost something; 0: never */
+    bool predict;
+    char file[256];        /* of contacts, without step and ending; empty: none */
+    nlc_material *material; /* [types + 2] by LAMMPS' type, the walls' behind them */
+    int32_t types;
+    int32_t walls, wall_material[WALLS];
+    char wall_name[WALLS][NAME]; /* of the variable that says where it is */
+    double wall_normal[3 * WALLS];
+} settings;
+
+/* Contacts and candidates of this step.  Bodies are numbered as the library wants them, atoms as LAMMPS does: ghosts too. */
+typedef struct contacts {
+    int64_t count, room;
+    int32_t *i, *j;           /* bodies */
+    int32_t *atom_i, *atom_j; /* atoms; walls come after all of them */
+    uint64_t *key;            /* both tags, or tag and wall: lasting names */
+    double *stiffness, *overlap, *normal, *force, *hertz, *nonlocal, *previous;
+    nlc_network *network;
+    void *memory;
+    size_t memory_room;
+} contacts;
+
+/* What the contacts were found for: they are good while nothing has moved far or changed its number. */
+typedef struct snapshot {
+    int32_t owned, atoms, *tag;
+    size_t room;
+    double *x, wall[3 * WALLS];
+} snapshot;
+
+typedef struct totals { /* summed over all ranks */
+    double active, touching, force, hertz, pairs, virial[6], wall[WALLS];
+} totals;
+
+typedef struct clock_times {
+    double geometry, solve, forces, rebuild, output;
+    int64_t steps, rebuilds, sweeps, contacts, most_sweeps;
+} clock_times;
+
+typedef struct host {
+    void *lammps;
+    MPI_Comm world;
+    int rank, ranks;
+    settings set;
+    contacts c;
+    snapshot seen;
+    totals sum;
+    clock_times time;
+    int64_t last_step;
+    int warned; /* warning bits that have been printed */
+    double needed_reach, wall_point[3 * WALLS];
+} host;
+
+/* Ends the program on all ranks. */
+#if defined(__GNUC__)
+__attribute__((noreturn, format(printf, 2, 3)))
+#endif
+void host_fail(const host *h, const char *format, ...);
+void host_check(const host *h, nlc_status status, const nlc_info *info, const char *what); /* errors end the program */
+void *host_room(const host *h, void *old, size_t bytes);
+
+void settings_read(host *h);
+void settings_walls(host *h); /* where they are now */
+
+bool contacts_stale(host *h, const int32_t *tag, double **x, int32_t owned);
+void contacts_find(host *h, const int32_t *tag, double **x, int32_t owned);
+void contacts_update(host *h, double **x); /* overlaps and normals */
+
+void step_callback(void *host, int64_t step, int owned, int *tag, double **x, double **f);
+
+enum { OUTPUT_LENGTH = 9 + WALLS };
+void output_prepare(host *h);
+void output_step(host *h, int64_t step, nlc_status status, const nlc_info *info);
+void output_times(const host *h);
+
+#endif

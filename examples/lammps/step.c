@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* step.c - a time step: between LAMMPS' forces and its integrator the nonlocal part of the contact forces is added. */
+#include <math.h>
+#include <string.h>
+
+#include "host.h"
+
+static nlc_status solve(host *h, int64_t step, nlc_info *info)
+{
+    contacts *c = &h->c;
+    nlc_status status;
+    if (h->set.predict && step == h->last_step + 1) { /* a run begins with the last step of the one before */
+        status = nlc_predict(c->nonlocal, c->previous, c->count, 1, info);
+        host_check(h, status, info, "nlc_predict");
+    } else if (c->count > 0) {
+        memcpy(c->previous, c->nonlocal, (size_t)c->count * sizeof *c->previous);
+    }
+    h->last_step = step;
+    status = nlc_solve(c->network, c->force, c->nonlocal, c->overlap, c->normal, info);
+    host_check(h, status, info, "nlc_solve");
+    return status;
+}
+
+/* What is added: P - P_Hertz along the normal, in c->hertz, as LAMMPS' pair style and walls add P_Hertz. */
+static void differences(host *h)
+{
+    const contacts *c = &h->c;
+    totals t = {0};
+    for (int64_t k = 0; k < c->count; k++) {
+        const double hertz = c->overlap[k] > 0 ? c->stiffness[k] * c->overlap[k] * sqrt(c->overlap[k]) : 0;
+        c->hertz[k] = c->force[k] - hertz;
+        t.active += c->force[k] > 0;
+        t.touching += c->overlap[k] > 0;
+        t.force += c->force[k];
+        t.hertz += hertz;
+        if (c->j[k] >= h->seen.owned) t.wall[c->j[k] - h->seen.owned] += c->force[k];
+        else t.pairs += c->force[k] > 0;
+    }
+    h->sum = t;
+}
+
+/* fix_modify nlc virial yes: pairs of particles only, as walls have no part in LAMMPS' pressure. */
+static void virial(host *h, double **x)
+{
+    static const int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
+    const contacts *c = &h->c;
+    for (int64_t k = 0; k < c->count; k++) {
+        if (c->j[k] >= h->seen.owned) continue;
+        const double *a = x[c->atom_i[k]], *b = x[c->atom_j[k]], *n = c->normal + 3 * k;
+        for (int e = 0; e < 6; e++) h->sum.virial[e] += c->hertz[k] * n[row[e]] * (b[column[e]] - a[column[e]]);
+    }
+}
+
+void step_callback(void *pointer, int64_t step, int owned, int *tag, double **x, double **f)
+{
+    host *h = pointer;
+    nlc_info info = {.struct_size = sizeof info};
+    double at[6];
+    at[0] = MPI_Wtime();
+    settings_walls(h);
+    if (contacts_stale(h, tag, x, owned)) {
+        contacts_find(h, tag, x, owned);
+        h->time.rebuilds++;
+    }
+    at[1] = MPI_Wtime();
+    contacts_update(h, x);
+    at[2] = MPI_Wtime();
+    const nlc_status status = solve(h, step, &info);
+    at[3] = MPI_Wtime();
+    differences(h);
+    virial(h, x);
+    if (owned > 0) memset(f[0], 0, 3 * (size_t)owned * sizeof(double));
+    nlc_status added = nlc_assemble(h->c.network, owned > 0 ? f[0] : at, 0, NULL, h->c.hertz, h->c.normal, NULL);
+    host_check(h, added, NULL, "nlc_assemble");
+    at[4] = MPI_Wtime();
+    output_step(h, step, status, &info);
+    at[5] = MPI_Wtime();
+    double *const spent[] = {&h->time.rebuild, &h->time.geometry, &h->time.solve, &h->time.forces, &h->time.output};
+    for (int k = 0; k < 5; k++) *spent[k] += at[k + 1] - at[k];
+    h->time.steps++;
+    h->time.sweeps += info.sweeps;
+    h->time.most_sweeps = info.sweeps > h->time.most_sweeps ? info.sweeps : h->time.most_sweeps;
+    h->time.contacts += h->c.count;
+}

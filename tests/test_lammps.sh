@@ -1,0 +1,104 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-2-Clause
+# LAMMPS as a host: forces, sums and pressure are those of the library called directly, in the first step and after a hundred.
+set -eu
+fail() { echo "test_lammps: $*" >&2; exit 1; }
+tmp=$(mktemp -d)
+trap 'rm -rf "$tmp"' EXIT
+trap 'exit 1' HUP INT TERM
+unset MAKEFLAGS MFLAGS GNUMAKEFLAGS MAKELEVEL
+lammps=$S/examples/lammps
+export OMP_NUM_THREADS=1 ASAN_OPTIONS="${ASAN_OPTIONS-}:detect_leaks=0" TMPDIR="$tmp"
+
+$MAKE -s -C "$S" B="$B" CC="$CC" CXX="$CXX" WARNINGS='-Wall -Wextra -Werror' examples >"$tmp/log" 2>&1 ||
+    { cat "$tmp/log"; fail "make examples fails"; }
+[ -x "$B/examples/nlc-lammps" ] && [ -z "${EMULATOR-}" ] ||
+    { echo "test_lammps: no LAMMPS to link with (make setup-examples installs it): skipped"; exit 0; }
+run() { # script name variables...
+    (cd "$tmp" && "$B/examples/nlc-lammps" -in "$lammps/$1" -log "$2.log" -var out "$2" $3 >"$2.out" 2>&1) ||
+        { tail -5 "$tmp/$2.out"; fail "$1 $3 fails"; }
+}
+near() { # what found expected relative
+    awk -v a="$2" -v b="$3" -v t="$4" 'BEGIN { d = a - b; exit !(a != "" && b != "" && d <= t * (b < 0 ? -b : b) && -d <= t * (b < 0 ? -b : b)) }' ||
+        fail "$1: $2 in LAMMPS, $3 by the library"
+}
+thermo() { awk -v step="$2" -v column="$3" '$1 == "Step" { on = 1; next } on && $1 == step { print $column; exit }' "$tmp/$1.log"; }
+row() { sed -n "s/^$1,[^,]*,[^,]*,//p" "$tmp/expected"; }
+
+# LAMMPS' forces on the particles, its own Hertz included, are the sums of P n over the contacts.  1e-9 of the largest: printed
+# with 16 digits, of sums of forces that cancel.
+forces() {
+    awk -F'[ ,]' '
+        FNR == 1 { file++ }
+        file == 1 && FNR > 9 { for (k = 0; k < 3; k++) F[$1, k] = $(7 + k); n++ }
+        file == 2 && FNR > 1 {
+            if ($4 > most) most = $4
+            for (k = 0; k < 3; k++) { F[$1, k] += $4 * $(6 + k); if ($2 > 0) F[$2, k] -= $4 * $(6 + k) }
+        }
+        END { for (key in F) { f = F[key]; if (f < 0) f = -f; if (f > worst) worst = f }
+              if (!(n > 0 && most > 0 && worst <= 1e-9 * most)) { print worst, most; exit 1 } }' "$tmp/$1.dump" "$tmp/$1.csv" >"$tmp/log" ||
+        fail "forces on particles, $1: off by, of: $(cat "$tmp/log")"
+}
+
+# The packing as LAMMPS left it, solved by the packing program.
+compare() { # name step packing model wall-columns
+    {
+        sed -n '/^#/p' "$S/bench/data/$3.csv" && echo id,x,y,z,radius,type
+        awk 'NR > 9 { print $1 "," $2 "," $3 "," $4 "," $5 "," $6 }' "$tmp/$1.$2.dump"
+    } >"$tmp/now.csv"
+    "$B/bench/packing" --csv --model "$4" "$tmp/now.csv" >"$tmp/all"
+    cut -d, -f1,2,3,4 "$tmp/all" >"$tmp/expected"
+    near "$1, step $2, sum of forces" "$(thermo "$1" "$2" 10)" "$(row total_force)" 1e-7
+    near "$1, step $2, coordination" "$(thermo "$1" "$2" 9)" "$(row coordination)" 1e-9
+    forces "$1.$2"
+    found=$(awk -F, 'NR > 1 { if ($3 <= 0 && $4 > 0) made++; if ($3 > 0 && $4 == 0) lost++ } END { print made + 0, lost + 0 }' "$tmp/$1.$2.csv")
+    [ "$found" = "$(row created) $(row lost)" ] || fail "$1, step $2: made and lost $found, by the library $(row created) $(row lost)"
+}
+data() { awk -f "$lammps/data.awk" "$S/bench/data/$1.csv" >"$tmp/$1.data"; }
+
+data c_hydrogel514_strain13
+run in.packing die "-var data c_hydrogel514_strain13.data -var young 23300 -var poisson 0.4999 -var nlc_model sphere"
+compare die 0 c_hydrogel514_strain13 sphere
+run in.packing let_go "-var data c_hydrogel514_strain13.data -var young 23300 -var poisson 0.4999 -var steps 100 -var dt 2e-4"
+compare let_go 0 c_hydrogel514_strain13 gonzalez-cuitino
+compare let_go 100 c_hydrogel514_strain13 gonzalez-cuitino
+data a_mono1000_periodic
+run in.packing periodic "-var data a_mono1000_periodic.data -var periodic 1 -var steps 100 -var dt 2e-6"
+compare periodic 0 a_mono1000_periodic gonzalez-cuitino
+near "periodic, pressure" "$(thermo periodic 0 5)" "$(row pressure)" 1e-7
+compare periodic 100 a_mono1000_periodic gonzalez-cuitino
+
+# A grain between two plates with two neighbours.  One, 50 degrees from the pole, overlaps, and its contact is drawn open: LAMMPS
+# adds Hertz' force and the callback takes it away.  The other one, at the equator, does not touch, and is pushed.
+cat >"$tmp/three.data" <<EOF
+# three grains
+
+3 atoms
+1 atom types
+
+-3 3 xlo xhi
+-3 3 ylo yhi
+-0.97 0.97 zlo zhi
+
+Atoms # sphere
+
+1 1 2 1000 0 0 0
+2 1 0.3 1000 0.8808746 0 0.7391418
+3 1 1 1000 -1.5001 0 0
+EOF
+run in.packing three "-var data three.data"
+forces three.0
+awk -F, 'NR > 1 && $2 > 0 {
+    if ($1 + $2 == 3) lost = $3 > 0 && $4 == 0 && $5 > 0
+    if ($1 + $2 == 4) made = $3 < 0 && $4 > 0 && $5 == 0
+} END { exit !(lost && made) }' "$tmp/three.0.csv" || { cat "$tmp/three.0.csv"; fail "no contact is drawn open, or none made"; }
+awk '$1 == 2 && NR > 9 { open = $7 * $7 + $9 * $9 } $1 == 3 && NR > 9 { pushed = -$7 } END { exit !(open < 1e-24 * pushed * pushed && pushed > 0) }' \
+    "$tmp/three.0.dump" || { cat "$tmp/three.0.dump"; fail "forces on the neighbours are wrong"; }
+
+# Without the fix it is LAMMPS; what is missing is said.
+printf 'units si\nprint "just LAMMPS"\n' >"$tmp/plain.in"
+(cd "$tmp" && "$B/examples/nlc-lammps" -in plain.in | grep -q '^just LAMMPS') || fail "a script without the fix does not run"
+(cd "$tmp" && ! "$B/examples/nlc-lammps" -in "$lammps/in.packing" -var data three.data -var nlc_model sponge >out 2>&1) || fail "a sponge is a model"
+grep -q "there is no model 'sponge'" "$tmp/out" || { cat "$tmp/out"; fail "a wrong model is not named"; }
+[ -z "$(ls "$tmp" | grep nlc-lammps)" ] || fail "pieces of scripts are left behind"
+echo "test_lammps: walls, periodic, opened and made contacts: ok"
