@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "host.h"
+#include "tags.h"
 
 #define NEIGHMASK 0x1FFFFFFF
-#define WALL_KEY UINT64_C(0xFFFFFF00) /* no particle's number: LAMMPS' tags are below 2^31 */
 
 /* All atoms, ghosts too, where LAMMPS keeps them. */
 static nlc_particles atoms_of(const host *h)
@@ -56,7 +56,7 @@ static bool stale_here(const host *h, const int32_t *tag, double **x, int32_t ow
 bool contacts_stale(host *h, const int32_t *tag, double **x, int32_t owned)
 {
     int stale = stale_here(h, tag, x, owned);
-    MPI_Allreduce(MPI_IN_PLACE, &stale, 1, MPI_INT, MPI_LOR, h->world);
+    MPI_Allreduce(MPI_IN_PLACE, &stale, 1, MPI_INT, MPI_LOR, h->ranks.world);
     return stale;
 }
 
@@ -67,8 +67,8 @@ static void take_snapshot(host *h, const int32_t *tag, double **x, int32_t owned
     s->atoms = owned + (int32_t)lammps_extract_setting(h->lammps, "nghost");
     if ((size_t)s->atoms > s->room) {
         s->room = (size_t)s->atoms + (size_t)s->atoms / 4;
-        s->tag = host_room(h, s->tag, s->room * sizeof *s->tag);
-        s->x = host_room(h, s->x, 3 * s->room * sizeof *s->x);
+        s->tag = host_room(s->tag, s->room * sizeof *s->tag);
+        s->x = host_room(s->x, 3 * s->room * sizeof *s->x);
     }
     if (s->atoms > 0) {
         memcpy(s->tag, tag, (size_t)s->atoms * sizeof *tag);
@@ -79,26 +79,26 @@ static void take_snapshot(host *h, const int32_t *tag, double **x, int32_t owned
 
 /* ------------------------------------------------------------------------------------------------------------- search -- */
 
-static void make_room(const host *h, contacts *c, int64_t count)
+static void make_room(contacts *c, int64_t count)
 {
     int32_t **const indices[] = {&c->i, &c->j, &c->atom_i, &c->atom_j};
     double **const values[] = {&c->stiffness, &c->overlap, &c->force, &c->hertz};
     if (count <= c->room) return;
     c->room = count + count / 8;
-    for (int k = 0; k < 4; k++) *indices[k] = host_room(h, *indices[k], (size_t)c->room * sizeof(int32_t));
-    for (int k = 0; k < 4; k++) *values[k] = host_room(h, *values[k], (size_t)c->room * sizeof(double));
-    c->normal = host_room(h, c->normal, 3 * (size_t)c->room * sizeof(double));
+    for (int k = 0; k < 4; k++) *indices[k] = host_room(*indices[k], (size_t)c->room * sizeof(int32_t));
+    for (int k = 0; k < 4; k++) *values[k] = host_room(*values[k], (size_t)c->room * sizeof(double));
+    c->normal = host_room(c->normal, 3 * (size_t)c->room * sizeof(double));
 }
 
 /* The pairs in LAMMPS' list of the pair style zero that are near enough. */
 static void read_list(host *h, double **x)
 {
     const int list = lammps_find_pair_neighlist(h->lammps, "zero", 1, 0, 0);
-    if (list < 0) host_fail(h, "no neighbour list of pair style zero: use pair_style hybrid/overlay ... zero CUTOFF");
+    if (list < 0) host_fail("no neighbour list of pair style zero: use pair_style hybrid/overlay ... zero CUTOFF");
     const int rows = lammps_neighlist_num_elements(h->lammps, list);
     const size_t room = (size_t)h->seen.owned + 1;
-    int32_t *whose = host_room(h, NULL, room * sizeof *whose), *length = host_room(h, NULL, room * sizeof *length);
-    int32_t **neighbour = host_room(h, NULL, room * sizeof *neighbour);
+    int32_t *whose = host_room(NULL, room * sizeof *whose), *length = host_room(NULL, room * sizeof *length);
+    int32_t **neighbour = host_room(NULL, room * sizeof *neighbour);
     for (int k = 0; k < rows; k++) {
         int owner, count, *row;
         lammps_neighlist_element_neighbors(h->lammps, list, k, &owner, &count, &row);
@@ -118,107 +118,155 @@ static void read_list(host *h, double **x)
     nlc_info info = {.struct_size = sizeof info};
     const double reach = h->set.reach + 2 * h->set.slack;
     nlc_status status = nlc_contacts_from_lists(&h->c.count, NULL, NULL, 0, &atoms, &positions, &lists, reach, &info);
-    host_check(h, status, &info, "neighbour list");
-    make_room(h, &h->c, h->c.count);
-    status = nlc_contacts_from_lists(&h->c.count, h->c.atom_i, h->c.atom_j, h->c.room, &atoms, &positions, &lists, reach, &info);
-    host_check(h, status, &info, "neighbour list");
+    host_check(status, &info, "neighbour list");
+    make_room(&h->c, h->c.count);
+    status =
+        nlc_contacts_from_lists(&h->c.count, h->c.atom_i, h->c.atom_j, h->c.room, &atoms, &positions, &lists, reach, &info);
+    host_check(status, &info, "neighbour list");
     free(whose);
     free(length);
     free(neighbour);
 }
 
-/* Where each tag's owner is among the owned atoms: open addressing, -1 is empty. */
-typedef struct directory {
-    int32_t *slot;
-    uint32_t mask;
-} directory;
-
-static uint32_t hash(int32_t tag)
-{
-    return (uint32_t)tag * UINT32_C(2654435769) >> 3;
-}
-
-static directory directory_of(const host *h)
-{
-    directory d = {NULL, 15};
-    while (d.mask / 2 < (uint32_t)h->seen.owned) d.mask = 2 * d.mask + 1;
-    d.slot = host_room(h, NULL, ((size_t)d.mask + 1) * sizeof *d.slot);
-    memset(d.slot, -1, ((size_t)d.mask + 1) * sizeof *d.slot);
-    for (int32_t k = 0; k < h->seen.owned; k++) {
-        uint32_t at = hash(h->seen.tag[k]) & d.mask;
-        while (d.slot[at] >= 0) at = (at + 1) & d.mask;
-        d.slot[at] = k;
-    }
-    return d;
-}
-
-static int32_t owner_of(const directory *d, const snapshot *s, int32_t atom)
-{
-    uint32_t at = hash(s->tag[atom]) & d->mask;
-    if (atom < s->owned) return atom;
-    while (d->slot[at] >= 0 && s->tag[d->slot[at]] != s->tag[atom]) at = (at + 1) & d->mask;
-    return d->slot[at];
-}
-
 /*
- * Bodies from atoms.  With newton off, LAMMPS lists a pair across a periodic boundary twice if both of its particles are owned
- * here, once from each side: only one of them stays.
+ * Bodies from atoms: owned ones, ghosts of particles owned elsewhere once each, walls.  With newton off LAMMPS lists a pair
+ * across a boundary from both sides: where both particles are owned here only one of them stays.
  */
 static void name_bodies(host *h)
 {
     contacts *c = &h->c;
     const snapshot *s = &h->seen;
-    const directory d = directory_of(h);
+    tags body = tags_new(s->atoms);
     int64_t kept = 0;
+    h->ghosts = 0;
+    h->ghost_atom = host_room(h->ghost_atom, (size_t)(s->atoms - s->owned) * sizeof *h->ghost_atom);
+    for (int32_t k = 0; k < s->owned; k++) tags_put(&body, s->tag[k], k);
     for (int64_t k = 0; k < c->count; k++) {
         const int32_t a = c->atom_i[k], b = c->atom_j[k];
-        const bool wall = b >= s->atoms;
-        const int32_t body = wall ? s->owned + (b - s->atoms) : owner_of(&d, s, b);
-        if (body < 0) host_fail(h, "particle %d is not on this rank", (int)s->tag[b]);
-        if (!wall && b >= s->owned && s->tag[a] >= s->tag[b]) continue;
+        if (b < s->atoms && tags_get(&body, s->tag[b]) < 0) {
+            tags_put(&body, s->tag[b], s->owned + h->ghosts);
+            h->ghost_atom[h->ghosts++] = b;
+        }
+        if (b < s->atoms && s->tag[a] == s->tag[b])
+            host_fail("particle %d meets its own image: the box is too narrow", (int)s->tag[a]);
+        if (b >= s->owned && b < s->atoms && s->tag[a] > s->tag[b] && tags_get(&body, s->tag[b]) < s->owned) continue;
         c->atom_i[kept] = c->i[kept] = a;
         c->atom_j[kept] = b;
-        c->j[kept++] = body;
+        c->j[kept++] = b < s->atoms ? tags_get(&body, s->tag[b]) : -1;
     }
     c->count = kept;
-    free(d.slot);
+    h->bodies = s->owned + h->ghosts;
+    for (int64_t k = 0; k < kept; k++)
+        if (c->j[k] < 0) c->j[k] = h->bodies + (c->atom_j[k] - s->atoms);
+    tags_free(&body);
 }
 
-static void name_contacts(const host *h, uint64_t *key)
+static uint64_t *name_contacts(const host *h)
 {
     const contacts *c = &h->c;
-    const int32_t *tag = h->seen.tag;
+    const snapshot *s = &h->seen;
+    uint64_t *key = host_room(NULL, (size_t)c->room * sizeof *key);
     for (int64_t k = 0; k < c->count; k++) {
-        const uint64_t a = (uint64_t)tag[c->atom_i[k]];
-        const uint64_t b = c->atom_j[k] < h->seen.atoms ? (uint64_t)tag[c->atom_j[k]] : WALL_KEY + (uint64_t)(c->atom_j[k] - h->seen.atoms);
+        const int32_t j = c->atom_j[k];
+        const uint64_t a = (uint64_t)s->tag[c->atom_i[k]],
+                       b = j < s->atoms ? (uint64_t)s->tag[j] : WALL_KEY + (uint64_t)(j - s->atoms);
         key[k] = a < b ? a << 32 | b : b << 32 | a;
     }
+    return key;
+}
+
+/* -------------------------------------------------------------------------------------------------------------- ranks -- */
+
+/* Who owns the ghosts, and which contacts are shared with whom; contacts that were known elsewhere join the old ones. */
+static void share(host *h, const uint64_t *key, ranks_state **state, int64_t *states)
+{
+    const contacts *c = &h->c;
+    const size_t ghosts = (size_t)h->ghosts, count = (size_t)c->count;
+    int32_t *tag = host_room(NULL, ghosts * sizeof *tag), *owner = host_room(NULL, ghosts * sizeof *owner);
+    int64_t arrivals, shared = 0, *contact = host_room(NULL, count * sizeof *contact);
+    uint64_t *shared_key = host_room(NULL, count * sizeof *shared_key);
+    int32_t *shared_owner = host_room(NULL, count * sizeof *shared_owner);
+    for (int32_t k = 0; k < h->ghosts; k++) tag[k] = h->seen.tag[h->ghost_atom[k]];
+    ranks_state *arrived = ranks_find(&h->ranks, h->seen.tag, h->seen.owned, tag, owner, h->ghosts, *state, *states, &arrivals);
+    *state = host_room(*state, (size_t)(*states + arrivals) * sizeof **state);
+    memcpy(*state + *states, arrived, (size_t)arrivals * sizeof *arrived);
+    *states += arrivals;
+    for (int64_t k = 0; k < c->count; k++) {
+        const int32_t ghost = c->j[k] - h->seen.owned;
+        if (ghost < 0 || ghost >= h->ghosts) continue;
+        if (owner[ghost] < 0) host_fail("particle %d has no owner", (int)tag[ghost]);
+        contact[shared] = k;
+        shared_key[shared] = key[k];
+        shared_owner[shared++] = owner[ghost];
+    }
+    if (!ranks_plan(&h->ranks, contact, shared_key, shared_owner, shared))
+        host_fail("two images of a contact: the box is too narrow");
+    free(tag);
+    free(owner);
+    free(contact);
+    free(shared_key);
+    free(shared_owner);
+    free(arrived);
 }
 
 /* ------------------------------------------------------------------------------------------------------------ network -- */
 
-static void carry(const host *h, double **values, const uint64_t *key, const contacts *c, int64_t old_count)
+static ranks_state *old_states(const contacts *c)
+{
+    ranks_state *state = host_room(NULL, (size_t)c->count * sizeof *state);
+    for (int64_t k = 0; k < c->count; k++) state[k] = (ranks_state){c->key[k], c->nonlocal[k], c->previous[k]};
+    return state;
+}
+
+/* The last step's values go to the contacts of the same key. */
+static double *carry(const contacts *c, const double *old, const uint64_t *old_key, int64_t old_count)
 {
     const size_t size = nlc_carry_size(c->count, old_count);
-    void *memory = host_room(h, NULL, size);
-    double *carried = host_room(h, NULL, (size_t)c->room * sizeof *carried);
+    void *memory = host_room(NULL, size);
+    double *carried = host_room(NULL, (size_t)c->room * sizeof *carried);
     nlc_info info = {.struct_size = sizeof info};
-    host_check(h, nlc_carry(carried, key, c->count, *values, c->key, old_count, memory, size, &info), &info, "nlc_carry");
+    host_check(nlc_carry(carried, c->key, c->count, old, old_key, old_count, memory, size, &info), &info, "nlc_carry");
     free(memory);
-    free(*values);
-    *values = carried;
+    return carried;
+}
+
+static void carry_states(contacts *c, const ranks_state *state, int64_t states)
+{
+    uint64_t *key = host_room(NULL, (size_t)states * sizeof *key);
+    double *old = host_room(NULL, (size_t)states * sizeof *old);
+    for (int64_t k = 0; k < states; k++) key[k] = state[k].key;
+    for (int64_t k = 0; k < states; k++) old[k] = state[k].nonlocal;
+    free(c->nonlocal);
+    c->nonlocal = carry(c, old, key, states);
+    for (int64_t k = 0; k < states; k++) old[k] = state[k].previous;
+    free(c->previous);
+    c->previous = carry(c, old, key, states);
+    free(key);
+    free(old);
+}
+
+/* Radii and types of the bodies, one after the other. */
+static void gather_bodies(host *h)
+{
+    const double *radius = lammps_extract_atom(h->lammps, "radius");
+    const int32_t *type = lammps_extract_atom(h->lammps, "type");
+    h->radius = host_room(h->radius, (size_t)h->bodies * sizeof *h->radius);
+    h->type = host_room(h->type, (size_t)h->bodies * sizeof *h->type);
+    for (int32_t k = 0; k < h->bodies; k++) {
+        const int32_t atom = k < h->seen.owned ? k : h->ghost_atom[k - h->seen.owned];
+        h->radius[k] = radius[atom];
+        h->type[k] = type[atom];
+    }
 }
 
 static void build_network(host *h)
 {
     contacts *c = &h->c;
     const settings *s = &h->set;
-    const double *radius = lammps_extract_atom(h->lammps, "radius");
-    const int32_t *type = lammps_extract_atom(h->lammps, "type");
     const nlc_particles particles = {.struct_size = sizeof particles,
-                                     .count = h->seen.owned,
-                                     .radius = radius,
-                                     .material = type,
+                                     .count = h->bodies,
+                                     .radius = h->radius,
+                                     .material = h->type,
                                      .materials = s->material,
                                      .material_count = s->types + 2,
                                      .material_size = sizeof *s->material,
@@ -228,31 +276,34 @@ static void build_network(host *h)
     nlc_info info = {.struct_size = sizeof info};
     if (size > c->memory_room) {
         free(c->memory);
-        c->memory = host_room(h, NULL, c->memory_room = size + size / 8);
+        c->memory = host_room(NULL, c->memory_room = size + size / 8);
     }
-    const nlc_status status = nlc_network_init(&c->network, c->memory, c->memory_room, &particles, c->i, c->j, c->count, &s->options, &info);
-    host_check(h, status, &info, "nlc_network_init");
+    const nlc_status status =
+        nlc_network_init(&c->network, c->memory, c->memory_room, &particles, c->i, c->j, c->count, &s->options, &info);
+    host_check(status, &info, "nlc_network_init");
     for (int64_t k = 0; k < c->count; k++) {
-        const int32_t a = c->atom_i[k], b = c->atom_j[k];
-        const bool wall = b >= h->seen.atoms;
-        const nlc_material m = s->material[type[a]], n = s->material[wall ? s->types + 1 : type[b]];
-        c->stiffness[k] = nlc_hertz_stiffness(m.young, m.poisson, radius[a], n.young, n.poisson, wall ? INFINITY : radius[b]);
+        const int32_t a = c->i[k], b = c->j[k];
+        const bool wall = b >= h->bodies;
+        const nlc_material m = s->material[h->type[a]], n = s->material[wall ? s->types + 1 : h->type[b]];
+        c->stiffness[k] =
+            nlc_hertz_stiffness(m.young, m.poisson, h->radius[a], n.young, n.poisson, wall ? INFINITY : h->radius[b]);
     }
 }
 
 void contacts_find(host *h, const int32_t *tag, double **x, int32_t owned)
 {
     contacts *c = &h->c;
-    const int64_t old_count = c->count;
+    int64_t states = c->count;
+    ranks_state *state = old_states(c);
     take_snapshot(h, tag, x, owned);
     read_list(h, x);
     name_bodies(h);
-    uint64_t *key = host_room(h, NULL, (size_t)c->room * sizeof *key);
-    name_contacts(h, key);
-    carry(h, &c->nonlocal, key, c, old_count);
-    carry(h, &c->previous, key, c, old_count);
     free(c->key);
-    c->key = key;
+    c->key = name_contacts(h);
+    if (h->ranks.count > 1) share(h, c->key, &state, &states);
+    carry_states(c, state, states);
+    free(state);
+    gather_bodies(h);
     build_network(h);
 }
 
@@ -262,6 +313,7 @@ void contacts_update(host *h, double **x)
     const nlc_positions positions = positions_of(h, x);
     contacts *c = &h->c;
     nlc_info info = {.struct_size = sizeof info};
-    const nlc_status status = nlc_contacts_from_pairs(c->overlap, c->normal, &atoms, &positions, c->atom_i, c->atom_j, c->count, &info);
-    host_check(h, status, &info, "overlaps");
+    const nlc_status status =
+        nlc_contacts_from_pairs(c->overlap, c->normal, &atoms, &positions, c->atom_i, c->atom_j, c->count, &info);
+    host_check(status, &info, "overlaps");
 }

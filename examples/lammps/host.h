@@ -5,6 +5,8 @@
  *     nlc-lammps.c   the program: LAMMPS with a callback between its own forces and its integrator
  *     settings.c     LAMMPS variables -> options, materials, walls
  *     contacts.c     LAMMPS' neighbour list -> contacts and network, whenever that is needed
+ *     ranks.c        who owns the others' particles, and what the ranks tell each other in a sweep
+ *     tags.c         a table of particles' tags
  *     step.c         the callback: overlaps -> forces, and what is left for LAMMPS to show
  *     output.c       thermo, per-atom values and a file of contacts
  */
@@ -17,6 +19,8 @@
 #include <nlcontact.h>
 #include <stdbool.h>
 
+#include "ranks.h"
+
 #define FIX "nlc" /* the fix external that this program drives, and what its variables' names begin with */
 
 enum { WALLS = 6, NAME = 64 };
@@ -27,7 +31,7 @@ typedef struct settings {
     double reach, slack; /* gaps that may close; how far a particle may go before they are looked for anew [m] */
     int64_t every;       /* steps between outputs that cost something; 0: never */
     bool predict;
-    char file[256];        /* of contacts, without step and ending; empty: none */
+    char file[256];         /* of contacts, without step and ending; empty: none */
     nlc_material *material; /* [types + 2] by LAMMPS' type, the walls' behind them */
     int32_t types;
     int32_t walls, wall_material[WALLS];
@@ -65,11 +69,13 @@ typedef struct clock_times {
 
 typedef struct host {
     void *lammps;
-    MPI_Comm world;
-    int rank, ranks;
+    ranks ranks;
     settings set;
-    contacts c;
     snapshot seen;
+    int32_t ghosts, bodies;     /* particles owned elsewhere, and all: owned ones, ghosts; walls follow */
+    int32_t *ghost_atom, *type; /* [ghosts] one of LAMMPS' ghosts of it; [bodies] */
+    double *radius;             /* [bodies] */
+    contacts c;
     totals sum;
     clock_times time;
     int64_t last_step;
@@ -79,11 +85,17 @@ typedef struct host {
 
 /* Ends the program on all ranks. */
 #if defined(__GNUC__)
-__attribute__((noreturn, format(printf, 2, 3)))
+__attribute__((noreturn, format(printf, 1, 2)))
 #endif
-void host_fail(const host *h, const char *format, ...);
-void host_check(const host *h, nlc_status status, const nlc_info *info, const char *what); /* errors end the program */
-void *host_room(const host *h, void *old, size_t bytes);
+void host_fail(const char *format, ...);
+void host_check(nlc_status status, const nlc_info *info, const char *what); /* errors end the program */
+void *host_room(void *old, size_t bytes);
+
+/* Of a contact with a ghost each of the two ranks counts one half. */
+static inline double host_share(const host *h, int64_t contact)
+{
+    return h->c.j[contact] >= h->seen.owned && h->c.j[contact] < h->bodies ? 0.5 : 1;
+}
 
 void settings_read(host *h);
 void settings_walls(host *h); /* where they are now */

@@ -27,7 +27,7 @@ static void remove_script(void)
         if (made.path[k][0]) unlink(made.path[k]);
 }
 
-void host_fail(const host *h, const char *format, ...)
+void host_fail(const char *format, ...)
 {
     va_list list;
     va_start(list, format);
@@ -36,19 +36,19 @@ void host_fail(const host *h, const char *format, ...)
     fputc('\n', stderr);
     va_end(list);
     remove_script();
-    MPI_Abort(h->world, EXIT_FAILURE);
+    MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
     exit(EXIT_FAILURE);
 }
 
-void host_check(const host *h, nlc_status status, const nlc_info *info, const char *what)
+void host_check(nlc_status status, const nlc_info *info, const char *what)
 {
-    if (status < 0) host_fail(h, "%s: %s (%lld)", what, nlc_strerror(status), info ? (long long)info->culprit : -1);
+    if (status < 0) host_fail("%s: %s (%lld)", what, nlc_strerror(status), info ? (long long)info->culprit : -1);
 }
 
-void *host_room(const host *h, void *old, size_t bytes)
+void *host_room(void *old, size_t bytes)
 {
     void *memory = realloc(old, bytes + 1);
-    if (!memory) host_fail(h, "no memory");
+    if (!memory) host_fail("no memory");
     return memory;
 }
 
@@ -61,30 +61,30 @@ static bool is_fix(const char *line)
            strcmp(style, "external") == 0 && strcmp(mode, "pf/callback") == 0;
 }
 
-static FILE *temporary(const host *h, char path[64])
+static FILE *temporary(char path[64])
 {
     const char *folder = getenv("TMPDIR");
     snprintf(path, 64, "%s/nlc-lammps.XXXXXX", folder && strlen(folder) < 40 ? folder : "/tmp");
     const int descriptor = mkstemp(path);
     FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "w");
-    if (!file) host_fail(h, "%s cannot be made", path);
+    if (!file) host_fail("%s cannot be made", path);
     return file;
 }
 
-static void split(const host *h, const char *path, script *s)
+static void split(const char *path, script *s)
 {
-    FILE *in = path ? fopen(path, "r") : stdin, *out = temporary(h, s->path[0]);
+    FILE *in = path ? fopen(path, "r") : stdin, *out = temporary(s->path[0]);
     char *line = NULL;
     size_t room = 0;
-    if (!in) host_fail(h, "%s cannot be read", path);
+    if (!in) host_fail("%s cannot be read", path);
     while (getline(&line, &room, in) >= 0) {
-        if (fputs(line, out) < 0) host_fail(h, "%s cannot be written", s->path[s->found]);
+        if (fputs(line, out) < 0) host_fail("%s cannot be written", s->path[s->found]);
         if (s->found || !is_fix(line)) continue;
-        if (fclose(out) != 0) host_fail(h, "%s cannot be written", s->path[0]);
+        if (fclose(out) != 0) host_fail("%s cannot be written", s->path[0]);
         s->found = 1;
-        out = temporary(h, s->path[1]);
+        out = temporary(s->path[1]);
     }
-    if (fclose(out) != 0) host_fail(h, "%s cannot be written", s->path[s->found]);
+    if (fclose(out) != 0) host_fail("%s cannot be written", s->path[s->found]);
     if (path) fclose(in);
     free(line);
 }
@@ -103,31 +103,31 @@ static void run(const host *h, const char *path)
     lammps_file(h->lammps, path);
     if (!lammps_config_has_exceptions() || !lammps_has_error(h->lammps)) return;
     lammps_get_last_error_message(h->lammps, message, sizeof message);
-    host_fail(h, "%s", message);
+    host_fail("%s", message);
 }
 
 /* --------------------------------------------------------------------------------------------------------------- main -- */
 
 static void release(host *h)
 {
-    void *memory[] = {h->c.i,        h->c.j,        h->c.atom_i, h->c.atom_j,   h->c.key,    h->c.stiffness,     h->c.overlap, h->c.normal,
-                      h->c.force,    h->c.hertz,    h->c.memory, h->c.nonlocal, h->c.previous, h->set.material, h->seen.tag,  h->seen.x};
+    void *memory[] = {h->c.i,      h->c.j,     h->c.atom_i,   h->c.atom_j, h->c.key,      h->c.stiffness, h->c.overlap,
+                      h->c.normal, h->c.force, h->c.hertz,    h->c.memory, h->c.nonlocal, h->c.previous,  h->set.material,
+                      h->seen.tag, h->seen.x,  h->ghost_atom, h->type,     h->radius};
     for (size_t k = 0; k < sizeof memory / sizeof *memory; k++) free(memory[k]);
+    ranks_free(&h->ranks);
 }
 
 int main(int argc, char **argv)
 {
     static host h;
     MPI_Init(&argc, &argv);
-    h.world = MPI_COMM_WORLD;
+    ranks_init(&h.ranks, MPI_COMM_WORLD);
     h.last_step = -2;
-    MPI_Comm_rank(h.world, &h.rank);
-    MPI_Comm_size(h.world, &h.ranks);
     atexit(remove_script); /* LAMMPS may end the program */
-    if (h.rank == 0) split(&h, script_path(argc, argv), &made);
-    MPI_Bcast(&made, sizeof made, MPI_BYTE, 0, h.world);
-    h.lammps = lammps_open(argc, argv, h.world, NULL);
-    if (!h.lammps) host_fail(&h, "LAMMPS does not start");
+    if (h.ranks.rank == 0) split(script_path(argc, argv), &made);
+    MPI_Bcast(&made, sizeof made, MPI_BYTE, 0, h.ranks.world);
+    h.lammps = lammps_open(argc, argv, h.ranks.world, NULL);
+    if (!h.lammps) host_fail("LAMMPS does not start");
     run(&h, made.path[0]);
     if (made.found) {
         settings_read(&h);

@@ -15,7 +15,7 @@ static bool number(const host *h, const char *name, double *value)
     snprintf(formula, sizeof formula, "variable nlc_number equal v_%s", name);
     lammps_command(h->lammps, formula);
     found = lammps_extract_variable(h->lammps, "nlc_number", NULL);
-    if (!found) host_fail(h, "variable %s is no number", name);
+    if (!found) host_fail("variable %s is no number", name);
     *value = *found;
     lammps_free(found);
     lammps_command(h->lammps, "variable nlc_number delete");
@@ -40,14 +40,14 @@ static void read_options(host *h)
     nlc_options *o = &h->set.options;
     o->struct_size = sizeof *o;
     o->model = nlc_model_find(model);
-    if (o->model < 0) host_fail(h, "there is no model '%s'", model);
+    if (o->model < 0) host_fail("there is no model '%s'", model);
     o->tolerance = number_or(h, "nlc_tolerance", 1e-6);
     o->prefactor = number_or(h, "nlc_prefactor", 1);
     o->max_sweeps = (int64_t)number_or(h, "nlc_max_sweeps", 0);
     o->points = number_or(h, "nlc_undeformed", 0) > 0 ? NLC_POINTS_UNDEFORMED : NLC_POINTS_DEFORMED;
     h->set.predict = number_or(h, "nlc_predict", 1) > 0;
     h->set.every = (int64_t)number_or(h, "nlc_every", 0);
-    if (h->set.every < 0) host_fail(h, "nlc_every is negative");
+    if (h->set.every < 0) host_fail("nlc_every is negative");
     snprintf(h->set.file, sizeof h->set.file, "%s", text_or(h, "nlc_contacts", ""));
 }
 
@@ -58,14 +58,14 @@ static void read_materials(host *h)
     const nlc_material wall = {number_or(h, "nlc_wall_young", INFINITY), number_or(h, "nlc_wall_poisson", 0)};
     settings *s = &h->set;
     s->types = (int32_t)lammps_extract_setting(h->lammps, "ntypes");
-    s->material = host_room(h, NULL, (size_t)(s->types + 2) * sizeof *s->material);
+    s->material = host_room(NULL, (size_t)(s->types + 2) * sizeof *s->material);
     s->material[0] = all;
     for (int32_t type = 1; type <= s->types; type++) {
         char young[NAME], poisson[NAME];
         snprintf(young, sizeof young, "nlc_young_%d", (int)type);
         snprintf(poisson, sizeof poisson, "nlc_poisson_%d", (int)type);
         s->material[type] = (nlc_material){number_or(h, young, all.young), number_or(h, poisson, all.poisson)};
-        if (!(s->material[type].young > 0)) host_fail(h, "type %d has no modulus: variable nlc_young or %s", (int)type, young);
+        if (!(s->material[type].young > 0)) host_fail("type %d has no modulus: variable nlc_young or %s", (int)type, young);
     }
     s->material[s->types + 1] = wall;
 }
@@ -91,15 +91,15 @@ void settings_walls(host *h)
     for (int w = 0; w < h->set.walls; w++) {
         char *name = h->set.wall_name[w];
         double *at = lammps_extract_variable(h->lammps, name, NULL);
-        if (!at) host_fail(h, "variable %s is gone", name);
+        if (!at) host_fail("variable %s is gone", name);
         for (int k = 0; k < 3; k++) h->wall_point[3 * w + k] = fabs(h->set.wall_normal[3 * w + k]) * *at;
         lammps_free(at);
     }
 }
 
 /*
- * Candidates have a gap below reach and 2 slack.  LAMMPS lists what is nearer than the cutoff of its pair style zero, always; its
- * skin says only how often it has to make that list.
+ * Candidates have a gap below reach and 2 slack.  LAMMPS lists what is nearer than the cutoff of its pair style zero, always;
+ * its skin says only how often it has to make that list.
  */
 static void set_reach(host *h)
 {
@@ -107,12 +107,12 @@ static void set_reach(host *h)
     const double *radius = lammps_extract_atom(h->lammps, "radius");
     double largest = 0;
     char command[NAME];
-    if (!radius) host_fail(h, "atoms have no radius: use atom_style sphere");
+    if (!radius) host_fail("atoms have no radius: use atom_style sphere");
     for (int32_t k = 0; k < owned; k++) largest = fmax(largest, radius[k]);
-    MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, h->world);
+    MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, h->ranks.world);
     h->set.reach = number_or(h, "nlc_reach", 0.3 * largest);
     h->set.slack = number_or(h, "nlc_slack", 0.05 * largest);
-    if (!(h->set.reach >= 0 && h->set.slack > 0)) host_fail(h, "nlc_reach is negative, or nlc_slack not positive");
+    if (!(h->set.reach >= 0 && h->set.slack > 0)) host_fail("nlc_reach is negative, or nlc_slack not positive");
     snprintf(command, sizeof command, "pair_coeff * * zero %.17g", 2 * largest + h->set.reach + 2 * h->set.slack);
     lammps_command(h->lammps, command);
     snprintf(command, sizeof command, "neighbor %.17g bin", number_or(h, "nlc_skin", 4 * h->set.slack));
@@ -121,7 +121,8 @@ static void set_reach(host *h)
 
 void settings_read(host *h)
 {
-    if (lammps_extract_setting(h->lammps, "newton_pair") > 0) host_fail(h, "use newton off");
+    if (lammps_extract_setting(h->lammps, "newton_pair") > 0) host_fail("use newton off");
+    if (h->ranks.count > 1) host_fail("only one rank so far");
     read_options(h);
     read_materials(h);
     read_walls(h);

@@ -11,13 +11,13 @@ static nlc_status solve(host *h, int64_t step, nlc_info *info)
     nlc_status status;
     if (h->set.predict && step == h->last_step + 1) { /* a run begins with the last step of the one before */
         status = nlc_predict(c->nonlocal, c->previous, c->count, 1, info);
-        host_check(h, status, info, "nlc_predict");
+        host_check(status, info, "nlc_predict");
     } else if (c->count > 0) {
         memcpy(c->previous, c->nonlocal, (size_t)c->count * sizeof *c->previous);
     }
     h->last_step = step;
     status = nlc_solve(c->network, c->force, c->nonlocal, c->overlap, c->normal, info);
-    host_check(h, status, info, "nlc_solve");
+    host_check(status, info, "nlc_solve");
     return status;
 }
 
@@ -27,14 +27,17 @@ static void differences(host *h)
     const contacts *c = &h->c;
     totals t = {0};
     for (int64_t k = 0; k < c->count; k++) {
+        const double share = host_share(h, k);
         const double hertz = c->overlap[k] > 0 ? c->stiffness[k] * c->overlap[k] * sqrt(c->overlap[k]) : 0;
         c->hertz[k] = c->force[k] - hertz;
-        t.active += c->force[k] > 0;
-        t.touching += c->overlap[k] > 0;
-        t.force += c->force[k];
-        t.hertz += hertz;
-        if (c->j[k] >= h->seen.owned) t.wall[c->j[k] - h->seen.owned] += c->force[k];
-        else t.pairs += c->force[k] > 0;
+        t.active += share * (c->force[k] > 0);
+        t.touching += share * (c->overlap[k] > 0);
+        t.force += share * c->force[k];
+        t.hertz += share * hertz;
+        if (c->j[k] >= h->bodies)
+            t.wall[c->j[k] - h->bodies] += c->force[k];
+        else
+            t.pairs += share * (c->force[k] > 0);
     }
     h->sum = t;
 }
@@ -45,9 +48,10 @@ static void virial(host *h, double **x)
     static const int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
     const contacts *c = &h->c;
     for (int64_t k = 0; k < c->count; k++) {
-        if (c->j[k] >= h->seen.owned) continue;
+        if (c->j[k] >= h->bodies) continue;
         const double *a = x[c->atom_i[k]], *b = x[c->atom_j[k]], *n = c->normal + 3 * k;
-        for (int e = 0; e < 6; e++) h->sum.virial[e] += c->hertz[k] * n[row[e]] * (b[column[e]] - a[column[e]]);
+        for (int e = 0; e < 6; e++)
+            h->sum.virial[e] += host_share(h, k) * c->hertz[k] * n[row[e]] * (b[column[e]] - a[column[e]]);
     }
 }
 
@@ -69,9 +73,9 @@ void step_callback(void *pointer, int64_t step, int owned, int *tag, double **x,
     at[3] = MPI_Wtime();
     differences(h);
     virial(h, x);
-    if (owned > 0) memset(f[0], 0, 3 * (size_t)owned * sizeof(double));
-    nlc_status added = nlc_assemble(h->c.network, owned > 0 ? f[0] : at, 0, NULL, h->c.hertz, h->c.normal, NULL);
-    host_check(h, added, NULL, "nlc_assemble");
+    if (h->bodies > 0) memset(f[0], 0, 3 * (size_t)h->bodies * sizeof(double)); /* LAMMPS has rows for its ghosts, too */
+    nlc_status added = nlc_assemble(h->c.network, h->bodies > 0 ? f[0] : at, 0, NULL, h->c.hertz, h->c.normal, NULL);
+    host_check(added, NULL, "nlc_assemble");
     at[4] = MPI_Wtime();
     output_step(h, step, status, &info);
     at[5] = MPI_Wtime();

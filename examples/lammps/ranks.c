@@ -1,0 +1,230 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+#include "ranks.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "host.h"
+#include "tags.h"
+
+void ranks_init(ranks *r, MPI_Comm world)
+{
+    memset(r, 0, sizeof *r);
+    r->world = world;
+    MPI_Comm_rank(world, &r->rank);
+    MPI_Comm_size(world, &r->count);
+}
+
+void ranks_free(ranks *r)
+{
+    void *memory[] = {r->tag, r->peer, r->contact, r->out, r->in, r->request};
+    for (size_t k = 0; k < sizeof memory / sizeof *memory; k++) free(memory[k]);
+}
+
+/* --------------------------------------------------------------------------------------------------------------- mail -- */
+
+/* Records for any ranks; returns those that have come, in the order of the ranks that sent them. */
+typedef struct mail {
+    size_t size;
+    int64_t count, room;
+    char *record;
+    int *to;
+} mail;
+
+static void post(mail *m, const void *record, int to)
+{
+    if (m->count == m->room) {
+        m->room = 2 * m->room + 64;
+        m->record = host_room(m->record, (size_t)m->room * m->size);
+        m->to = host_room(m->to, (size_t)m->room * sizeof *m->to);
+    }
+    memcpy(m->record + (size_t)m->count * m->size, record, m->size);
+    m->to[m->count++] = to;
+}
+
+/* Sums of the counts before each rank; returns that of all. */
+static int offsets(int *offset, const int *count, int most)
+{
+    int sum = 0;
+    for (int k = 0; k < most; k++) {
+        offset[k] = sum;
+        sum += count[k];
+    }
+    return sum;
+}
+
+static void *deliver(const ranks *r, mail *m, int64_t *received)
+{
+    const size_t all = (size_t)r->count;
+    int *count = host_room(NULL, 5 * all * sizeof *count), *offset = count + all, *next = offset + all;
+    int *in_count = next + all, *in_offset = in_count + all;
+    char *out = host_room(NULL, (size_t)m->count * m->size);
+    memset(count, 0, all * sizeof *count);
+    for (int64_t k = 0; k < m->count; k++) count[m->to[k]] += (int)m->size; /* in bytes */
+    offsets(offset, count, r->count);
+    memcpy(next, offset, all * sizeof *next);
+    for (int64_t k = 0; k < m->count; k++) {
+        memcpy(out + next[m->to[k]], m->record + (size_t)k * m->size, m->size);
+        next[m->to[k]] += (int)m->size;
+    }
+    MPI_Alltoall(count, 1, MPI_INT, in_count, 1, MPI_INT, r->world);
+    const int bytes = offsets(in_offset, in_count, r->count);
+    char *in = host_room(NULL, (size_t)bytes);
+    MPI_Alltoallv(out, count, offset, MPI_BYTE, in, in_count, in_offset, MPI_BYTE, r->world);
+    *received = bytes / (int64_t)m->size;
+    free(count);
+    free(out);
+    free(m->record);
+    free(m->to);
+    return in;
+}
+
+/* ------------------------------------------------------------------------------------------------------------- owners -- */
+
+typedef struct question {
+    int32_t tag, from, number; /* an owner's report has no number */
+} question;
+
+static tags take_reports(const ranks *r, const int32_t *tag, int32_t owned)
+{
+    mail reports = {.size = sizeof(question)};
+    int64_t count;
+    for (int32_t k = 0; k < owned; k++) post(&reports, &(question){tag[k], r->rank, 0}, tag[k] % r->count);
+    question *report = deliver(r, &reports, &count);
+    tags homes = tags_new(count);
+    for (int64_t k = 0; k < count; k++) tags_put(&homes, report[k].tag, report[k].from);
+    free(report);
+    return homes;
+}
+
+/* owner[k] of wanted[k] */
+static void ask_homes(const ranks *r, const tags *homes, const int32_t *wanted, int32_t *owner, int32_t count)
+{
+    mail questions = {.size = sizeof(question)}, answers = {.size = sizeof(question)};
+    int64_t received;
+    for (int32_t k = 0; k < count; k++) post(&questions, &(question){wanted[k], r->rank, k}, wanted[k] % r->count);
+    question *asked = deliver(r, &questions, &received);
+    for (int64_t k = 0; k < received; k++)
+        post(&answers, &(question){asked[k].tag, tags_get(homes, asked[k].tag), asked[k].number}, asked[k].from);
+    free(asked);
+    asked = deliver(r, &answers, &received);
+    for (int64_t k = 0; k < received; k++) owner[asked[k].number] = asked[k].from;
+    free(asked);
+}
+
+/* Particles that were owned here and no longer are. */
+static int32_t find_lost(const ranks *r, const tags *here, int32_t *lost)
+{
+    int32_t count = 0;
+    for (int32_t k = 0; k < r->owned; k++)
+        if (tags_get(here, r->tag[k]) < 0) lost[count++] = r->tag[k];
+    return count;
+}
+
+/* To the new owners of particles that have left. */
+static ranks_state *send_states(const ranks *r, const tags *left, const ranks_state *state, int64_t states, int64_t *arrivals)
+{
+    mail states_out = {.size = sizeof *state};
+    for (int64_t k = 0; k < states; k++) {
+        const uint64_t body[2] = {state[k].key >> 32, state[k].key & UINT32_MAX};
+        for (int b = 0; b < 2; b++) {
+            const int32_t to = body[b] < WALL_KEY ? tags_get(left, (int32_t)body[b]) : -1;
+            if (to >= 0) post(&states_out, &state[k], to);
+        }
+    }
+    return deliver(r, &states_out, arrivals);
+}
+
+ranks_state *ranks_find(ranks *r, const int32_t *tag, int32_t owned, const int32_t *ghost_tag, int32_t *ghost_owner,
+                        int32_t ghosts, const ranks_state *state, int64_t states, int64_t *arrivals)
+{
+    tags homes = take_reports(r, tag, owned), here = tags_new(owned), left = tags_new(r->owned);
+    int32_t *lost = host_room(NULL, (size_t)r->owned * sizeof *lost),
+            *owner = host_room(NULL, (size_t)r->owned * sizeof *owner);
+    for (int32_t k = 0; k < owned; k++) tags_put(&here, tag[k], k);
+    const int32_t count = find_lost(r, &here, lost);
+    ask_homes(r, &homes, ghost_tag, ghost_owner, ghosts);
+    ask_homes(r, &homes, lost, owner, count);
+    for (int32_t k = 0; k < count; k++)
+        if (owner[k] >= 0) tags_put(&left, lost[k], owner[k]);
+    ranks_state *arrived = send_states(r, &left, state, states, arrivals);
+    r->tag = host_room(r->tag, (size_t)owned * sizeof *r->tag);
+    if (owned > 0) memcpy(r->tag, tag, (size_t)owned * sizeof *tag);
+    r->owned = owned;
+    tags_free(&homes);
+    tags_free(&here);
+    tags_free(&left);
+    free(lost);
+    free(owner);
+    return arrived;
+}
+
+/* --------------------------------------------------------------------------------------------------------------- plan -- */
+
+typedef struct straddler {
+    int64_t contact;
+    uint64_t key;
+    int32_t owner;
+} straddler;
+
+static int by_owner_and_key(const void *a, const void *b)
+{
+    const straddler *s = a, *t = b;
+    if (s->owner != t->owner) return s->owner < t->owner ? -1 : 1;
+    return s->key < t->key ? -1 : s->key > t->key;
+}
+
+static void find_peers(ranks *r, const straddler *s, int64_t count)
+{
+    r->peers = 0;
+    for (int64_t k = 0; k < count; k++) {
+        if (k == 0 || s[k].owner != s[k - 1].owner) r->peer[r->peers++] = (ranks_peer){s[k].owner, k, 0};
+        r->peer[r->peers - 1].count++;
+        r->contact[k] = s[k].contact;
+    }
+}
+
+bool ranks_plan(ranks *r, const int64_t *contact, const uint64_t *key, const int32_t *owner, int64_t count)
+{
+    straddler *s = host_room(NULL, (size_t)count * sizeof *s);
+    bool unique = true;
+    for (int64_t k = 0; k < count; k++) s[k] = (straddler){contact[k], key[k], owner[k]};
+    qsort(s, (size_t)count, sizeof *s, by_owner_and_key);
+    for (int64_t k = 1; k < count; k++) unique = unique && by_owner_and_key(&s[k - 1], &s[k]) != 0;
+    r->straddling = count;
+    r->peer = host_room(r->peer, (size_t)r->count * sizeof *r->peer);
+    r->request = host_room(r->request, 2 * (size_t)r->count * sizeof *r->request);
+    r->contact = host_room(r->contact, (size_t)count * sizeof *r->contact);
+    r->out = host_room(r->out, (size_t)count * sizeof *r->out);
+    r->in = host_room(r->in, (size_t)count * sizeof *r->in);
+    find_peers(r, s, count);
+    free(s);
+    return unique;
+}
+
+/* ---------------------------------------------------------------------------------------------------------- callbacks -- */
+
+int ranks_exchange(void *context, double *side)
+{
+    ranks *r = context;
+    for (int64_t k = 0; k < r->straddling; k++) r->out[k] = side[2 * r->contact[k]];
+    for (int p = 0; p < r->peers; p++) {
+        const ranks_peer *peer = &r->peer[p];
+        MPI_Irecv(r->in + peer->first, (int)peer->count, MPI_DOUBLE, peer->rank, 0, r->world, &r->request[2 * p]);
+        MPI_Isend(r->out + peer->first, (int)peer->count, MPI_DOUBLE, peer->rank, 0, r->world, &r->request[2 * p + 1]);
+    }
+    MPI_Waitall(2 * r->peers, r->request, MPI_STATUSES_IGNORE);
+    for (int64_t k = 0; k < r->straddling; k++) side[2 * r->contact[k] + 1] = r->in[k];
+    r->exchanges++;
+    r->messages += r->peers;
+    r->sides += r->straddling;
+    return 0;
+}
+
+int ranks_reduce(void *context, double *values, int32_t count, int32_t operation)
+{
+    ranks *r = context;
+    r->reductions++;
+    r->reduced += count;
+    return MPI_Allreduce(MPI_IN_PLACE, values, count, MPI_DOUBLE, operation == 0 ? MPI_SUM : MPI_MAX, r->world);
+}
