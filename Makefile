@@ -180,7 +180,7 @@ figures: $(FIGURES) $(BEDS) ## the figures of [GC] and [MC] as pictures and data
 EXAMPLES := $(B)/examples/packing-c++ $(if $(shell command -v $(FC) 2>/dev/null),$(B)/examples/packing-fortran)
 
 # LAMMPS as a host, where there is one that this compiler's programs can be linked with
-LAMMPS_SRC := $(sort $(wildcard $(S)/examples/lammps/*.c))
+LAMMPS_SRC := $(filter-out %/plot.c,$(sort $(wildcard $(S)/examples/lammps/*.c)))
 LAMMPS_PKG = $(shell $(PKG_CONFIG) --$(1) liblammps mpi-c 2>/dev/null)
 ifeq ($(shell $(PKG_CONFIG) --exists liblammps mpi-c 2>/dev/null && $(CC) -dumpmachine | cut -d- -f1),$(shell uname -m))
 EXAMPLES += $(B)/examples/nlc-lammps
