@@ -262,7 +262,7 @@ static void gather_bodies(host *h)
 static void build_network(host *h)
 {
     contacts *c = &h->c;
-    const settings *s = &h->set;
+    settings *s = &h->set;
     const nlc_particles particles = {.struct_size = sizeof particles,
                                      .count = h->bodies,
                                      .radius = h->radius,
@@ -272,6 +272,12 @@ static void build_network(host *h)
                                      .material_size = sizeof *s->material,
                                      .wall_material = s->wall_material,
                                      .wall_count = s->walls};
+    if (h->ranks.count > 1) {
+        s->options.owned_particles = h->seen.owned;
+        s->options.exchange = ranks_exchange;
+        s->options.reduce = ranks_reduce;
+        s->options.context = &h->ranks;
+    }
     const size_t size = nlc_network_size(&particles, c->count, &s->options);
     nlc_info info = {.struct_size = sizeof info};
     if (size > c->memory_room) {

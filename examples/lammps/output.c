@@ -74,7 +74,6 @@ static void show_energy(host *h)
     const nlc_status status = nlc_energy(h->c.network, &energy, h->c.force, h->c.overlap, h->c.normal, &info);
     if (status == NLC_ERROR_NO_POTENTIAL) return;
     host_check(status, &info, "nlc_energy");
-    MPI_Allreduce(MPI_IN_PLACE, &energy, 1, MPI_DOUBLE, MPI_SUM, h->ranks.world);
     lammps_fix_external_set_energy_global(h->lammps, FIX, energy);
 }
 
@@ -137,9 +136,28 @@ void output_step(host *h, int64_t step, nlc_status status, const nlc_info *info)
     warn(h, step, status);
 }
 
+/* What the ranks have told each other, per step: sides are numbers that cross from one rank to another. */
+static void print_traffic(const host *h)
+{
+    const ranks *r = &h->ranks;
+    double own[5] = {(double)r->sides, (double)r->messages, (double)h->seen.owned, (double)h->ghosts, (double)r->straddling};
+    double sum[5], most[5];
+    MPI_Reduce(own, sum, 5, MPI_DOUBLE, MPI_SUM, 0, r->world);
+    MPI_Reduce(own, most, 5, MPI_DOUBLE, MPI_MAX, 0, r->world);
+    if (r->rank > 0) return;
+    const double steps = (double)h->time.steps;
+    printf("nlc: %d ranks, the largest with %.0f particles, %.0f ghosts, %.0f contacts with these; in all %.0f of them, on "
+           "both sides\n",
+           r->count, most[2], most[3], most[4], sum[4]);
+    printf("nlc: a step: %.2f exchanges of %.1f kB and %.1f messages in all, %.1f reductions of %.1f numbers\n",
+           (double)r->exchanges / steps, 8e-3 * sum[0] / (double)r->exchanges, sum[1] / (double)r->exchanges,
+           (double)r->reductions / steps, (double)r->reduced / (double)r->reductions);
+}
+
 void output_times(const host *h)
 {
     const clock_times *t = &h->time;
+    if (t->steps > 0 && h->ranks.exchanges > 0) print_traffic(h);
     if (h->ranks.rank > 0 || t->steps == 0) return;
     const double n = (double)t->steps, count = (double)t->contacts / n, ms = 1e3 / n, ns = 1e9 / n / (count > 0 ? count : 1);
     printf("nlc: %lld steps, %.0f contacts and candidates, %.2f sweeps a step (at most %lld), %lld lists read\n",

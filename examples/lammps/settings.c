@@ -122,7 +122,6 @@ static void set_reach(host *h)
 void settings_read(host *h)
 {
     if (lammps_extract_setting(h->lammps, "newton_pair") > 0) host_fail("use newton off");
-    if (h->ranks.count > 1) host_fail("only one rank so far");
     read_options(h);
     read_materials(h);
     read_walls(h);
