@@ -96,6 +96,13 @@ awk -F, 'NR > 1 && $2 > 0 {
 awk '$1 == 2 && NR > 9 { open = $7 * $7 + $9 * $9 } $1 == 3 && NR > 9 { pushed = -$7 } END { exit !(open < 1e-24 * pushed * pushed && pushed > 0) }' \
     "$tmp/three.0.dump" || { cat "$tmp/three.0.dump"; fail "forces on the neighbours are wrong"; }
 
+# A grain that flies at another one from beyond the reach: found on its way, while LAMMPS keeps its list.
+sed '/^3 1 1 /s/-1.5001/-1.99/' "$tmp/three.data" >"$tmp/flying.data"
+printf '\nVelocities\n\n1 0 0 0 0 0 0\n2 0 0 0 0 0 0\n3 2600 0 0 0 0 0\n' >>"$tmp/flying.data"
+run in.packing flying "-var data flying.data -var steps 100 -var dt 2e-6"
+awk -F, 'NR > 1 && $1 + $2 == 4 && $2 > 0 && $3 > 0.01 && $4 > 0 { met = 1 } END { exit !met }' "$tmp/flying.100.csv" ||
+    { cat "$tmp/flying.100.csv"; fail "grains that meet are not found"; }
+
 # On several ranks, more than there may be processors: the same forces to 1e-12 of the largest and, a hundred steps later, the same
 # energies to 1e-9.  The packing drifts through its periodic box by half of a rank's part of it, so particles change ranks.  The
 # tolerance is so small that rounding alone is left.
@@ -107,6 +114,7 @@ same_forces() {
         END { if (!(n[1] > 0 && n[1] == n[2] && worst <= 1e-12 * most)) { print worst, most; exit 1 } }' "$tmp/$1.dump" "$tmp/$2.dump" >"$tmp/log" ||
         fail "forces of $1 and $2 differ by, of: $(cat "$tmp/log")"
 }
+sweeps() { sed -n 's/^nlc: .* \([0-9.]*\) sweeps a step.*/\1/p' "$tmp/$1.out"; }
 if command -v mpirun >/dev/null; then
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 \
         OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none
@@ -117,6 +125,7 @@ if command -v mpirun >/dev/null; then
         for column in 2 3; do
             near "$n ranks, energy" "$(thermo drift$n 100 $column)" "$(thermo drift1 100 $column)" 1e-9
         done
+        near "$n ranks, sweeps" "$(sweeps drift$n)" "$(sweeps drift1)" 0.02 # the start has come along with the particles
         run in.packing walls$n "-var data c_hydrogel514_strain13.data -var young 23300 -var poisson 0.4999 -var nlc_model sphere -var nlc_tolerance 1e-13"
         same_forces walls1.0 walls$n.0
         near "$n ranks, sum of forces" "$(thermo walls$n 0 10)" "$(thermo walls1 0 10)" 1e-12

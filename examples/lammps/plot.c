@@ -12,7 +12,7 @@
 
 #include "line_chart.h"
 
-enum { BINS = 60, RUNS = 16 };
+enum { BINS = 60, RUNS = 16, EVERY = 2 /* lines of a table */ };
 #define BIN 5e-3 /* N */
 
 /* r_top: top force at the greatest strain over the measured one, [MC] Table I; 0: not there. */
@@ -25,7 +25,7 @@ static const known models[] = {{"hertz", "1 Hertz", "#888888", .43},
                                {"point-force", "2 point forces, exact sphere", "#3a8a5f", .44},
                                {"gonzalez-cuitino", "3 Case I", "#e58a0c", .70},
                                {"half-space", "4 half-space", "#1c6fb5", .80},
-                               {"half-space-1.6", "5 half-space times 1.6", "#7fb2dd", 1},
+                               {"half-space-1.5", "5 MC-DEM: half-space times 1.5", "#7fb2dd", 1},
                                {"sphere", "6 exact sphere", "#35133d", 0}};
 enum { MODELS = sizeof models / sizeof models[0] };
 
@@ -33,6 +33,7 @@ typedef struct run {
     const known *model;
     double (*row)[3]; /* strain, top force, coordination */
     int rows;
+    double last; /* top force averaged over the last percent of strain: grains rearrange */
     double share[BINS], mean;
     long contacts;
 } run;
@@ -58,11 +59,12 @@ static FILE *open_file(const char *path)
 static void read_table(run *r, const char *name)
 {
     char path[1024], line[512];
-    double strain, top, bottom, coordination;
+    double strain, top, bottom, coordination, from;
+    int line_count = 0, averaged = 0;
     snprintf(path, sizeof path, "%s.csv", name);
     FILE *file = open_file(path);
     while (fgets(line, sizeof line, file)) {
-        if (sscanf(line, "%*d,%lf,%lf,%lf,%lf", &strain, &top, &bottom, &coordination) != 4) continue;
+        if (sscanf(line, "%*d,%lf,%lf,%lf,%lf", &strain, &top, &bottom, &coordination) != 4 || line_count++ % EVERY) continue;
         r->row = realloc(r->row, ((size_t)r->rows + 1) * sizeof *r->row);
         if (!r->row) exit(EXIT_FAILURE);
         r->row[r->rows][0] = 100 * strain;
@@ -70,6 +72,13 @@ static void read_table(run *r, const char *name)
         r->row[r->rows++][2] = coordination;
     }
     fclose(file);
+    from = r->rows > 0 ? r->row[r->rows - 1][0] - 1 : 0;
+    for (int n = 0; n < r->rows; n++)
+        if (r->row[n][0] >= from && r->row[n][0] < from + 1) {
+            r->last += r->row[n][1];
+            averaged++;
+        }
+    if (averaged > 0) r->last /= averaged;
 }
 
 /* Between particles, as [MC] measured them. */
@@ -124,16 +133,16 @@ static void draw_ratios(line_chart *c, const run *runs, int count)
 {
     double hertz = NAN;
     for (int k = 0; k < count; k++)
-        if (strcmp(runs[k].model->name, "hertz") == 0) hertz = runs[k].row[runs[k].rows - 1][1];
-    line_chart_panel(c, "top force over Hertz' at the end; crosses: [MC] Table I", (line_axis){"model", 0, MODELS + 1, false},
+        if (strcmp(runs[k].model->name, "hertz") == 0) hertz = runs[k].last;
+    line_chart_panel(c, "top force over Hertz', last 1 %; circles: [MC] Table I", (line_axis){"model", 0, MODELS + 1, false},
                      (line_axis){"ratio", 0, 2.5, false});
     for (int k = 0; k < count; k++) {
         const run *r = &runs[k];
-        const double at = (double)(r->model - models) + 1, ratio = r->row[r->rows - 1][1] / hertz;
+        const double at = (double)(r->model - models) + 1, ratio = r->last / hertz;
         line_chart_curve(c, r->model->colour, LINE_SOLID, "%s", r->model->label);
         line_chart_point(c, at, 0);
         line_chart_point(c, at, ratio);
-        printf("%-32s top force %.4g N, over Hertz' %.3f", r->model->label, r->row[r->rows - 1][1], ratio);
+        printf("%-32s top force %.4g N, over Hertz' %.3f", r->model->label, r->last, ratio);
         if (r->model->r_top > 0) printf(" ([MC] %.3f)", r->model->r_top / models[0].r_top);
         printf(", coordination %.2f, mean force %.1f mN\n", r->row[r->rows - 1][2], 1e3 * r->mean);
         if (!(r->model->r_top > 0)) continue;
