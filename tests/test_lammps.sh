@@ -69,6 +69,12 @@ compare periodic 0 a_mono1000_periodic gonzalez-cuitino
 near "periodic, pressure" "$(thermo periodic 0 5)" "$(row pressure)" 1e-7
 compare periodic 100 a_mono1000_periodic gonzalez-cuitino
 
+# Solved every fourth step only: what is extrapolated over so little is right to 1e-4.
+run in.packing interval "-var data a_mono1000_periodic.data -var periodic 1 -var steps 102 -var dt 2e-7 -var nlc_interval 4"
+run in.packing each "-var data a_mono1000_periodic.data -var periodic 1 -var steps 102 -var dt 2e-7"
+near "interval, sum of forces" "$(thermo interval 102 10)" "$(thermo each 102 10)" 1e-4
+[ "$(thermo interval 102 6) $(thermo each 102 6)" != "0 0" ] && [ "$(thermo interval 102 6)" = 0 ] || fail "nothing is extrapolated"
+
 # A grain between two plates with two neighbours.  One, 50 degrees from the pole, overlaps, and its contact is drawn open: LAMMPS
 # adds Hertz' force and the callback takes it away.  The other one, at the equator, does not touch, and is pushed.
 cat >"$tmp/three.data" <<EOF

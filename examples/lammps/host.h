@@ -29,6 +29,7 @@ enum { WALLS = 6, NAME = 64 };
 typedef struct settings {
     nlc_options options;
     double reach, slack; /* gaps that may close; how far a particle may go before they are looked for anew [m] */
+    int64_t interval;    /* steps from one solve to the next */
     int64_t every;       /* steps between outputs that cost something; 0: never */
     bool predict;
     char file[256];         /* of contacts, without step and ending; empty: none */
@@ -64,7 +65,8 @@ typedef struct totals { /* summed over all ranks */
 
 typedef struct clock_times {
     double geometry, solve, forces, rebuild, output;
-    int64_t steps, rebuilds, sweeps, contacts, most_sweeps;
+    double missed, forces_sum; /* sum of |extrapolated - solved| and of the forces, where there is something to compare */
+    int64_t steps, solves, rebuilds, sweeps, contacts, most_sweeps;
 } clock_times;
 
 typedef struct host {
@@ -78,9 +80,10 @@ typedef struct host {
     contacts c;
     totals sum;
     clock_times time;
-    int64_t last_step;
-    int warned; /* warning bits that have been printed */
-    double needed_reach, wall_point[3 * WALLS];
+    int64_t solved, span; /* step of the last solve, and how many after the one before */
+    nlc_status status;    /* of the last solve */
+    int warned;           /* warning bits that have been printed */
+    double residual, needed_reach, wall_point[3 * WALLS];
 } host;
 
 /* Ends the program on all ranks. */
@@ -108,7 +111,7 @@ void step_callback(void *host, int64_t step, int owned, int *tag, double **x, do
 
 enum { OUTPUT_LENGTH = 9 + WALLS };
 void output_prepare(host *h);
-void output_step(host *h, int64_t step, nlc_status status, const nlc_info *info);
+void output_step(host *h, int64_t step, const nlc_info *info);
 void output_times(const host *h);
 
 #endif

@@ -122,7 +122,7 @@ int main(int argc, char **argv)
     static host h;
     MPI_Init(&argc, &argv);
     ranks_init(&h.ranks, MPI_COMM_WORLD);
-    h.last_step = -2;
+    h.solved = -1;
     atexit(remove_script); /* LAMMPS may end the program */
     if (h.ranks.rank == 0) split(script_path(argc, argv), &made);
     MPI_Bcast(&made, sizeof made, MPI_BYTE, 0, h.ranks.world);

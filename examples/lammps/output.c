@@ -33,12 +33,12 @@ static void add_up(host *h)
 }
 
 /* f_nlc[1] ...: the README lists them. */
-static void show_thermo(host *h, nlc_status status, const nlc_info *info)
+static void show_thermo(host *h, const nlc_info *info)
 {
     const double particles = lammps_get_natoms(h->lammps);
     double value[OUTPUT_LENGTH] = {
         (double)info->sweeps, info->residual, h->sum.active, h->sum.touching, 2 * h->sum.pairs / particles,
-        h->sum.force,         h->sum.hertz,   status,        h->needed_reach};
+        h->sum.force,         h->sum.hertz,   h->status,     h->needed_reach};
     for (int w = 0; w < h->set.walls; w++) value[OUTPUT_LENGTH - WALLS + w] = h->sum.wall[w];
     for (int k = 0; k < OUTPUT_LENGTH; k++) lammps_fix_external_set_vector(h->lammps, FIX, k + 1, value[k]);
     lammps_fix_external_set_virial_global(h->lammps, FIX, h->sum.virial);
@@ -109,10 +109,10 @@ static void write_contacts(const host *h, int64_t step)
     }
 }
 
-static void warn(host *h, int64_t step, nlc_status status)
+static void warn(host *h, int64_t step)
 {
     const bool short_reach = h->needed_reach > h->set.reach;
-    const int news = (status | (short_reach ? 1 << 30 : 0)) & ~h->warned;
+    const int news = (h->status | (short_reach ? 1 << 30 : 0)) & ~h->warned;
     if (news && h->ranks.rank == 0) {
         if (news & ~(1 << 30)) printf("nlc: warning, step %lld: %s\n", (long long)step, nlc_strerror(news & ~(1 << 30)));
         if (news >> 30)
@@ -123,7 +123,7 @@ static void warn(host *h, int64_t step, nlc_status status)
     h->warned |= news;
 }
 
-void output_step(host *h, int64_t step, nlc_status status, const nlc_info *info)
+void output_step(host *h, int64_t step, const nlc_info *info)
 {
     add_up(h);
     if (h->set.every > 0 && step % h->set.every == 0) {
@@ -132,8 +132,8 @@ void output_step(host *h, int64_t step, nlc_status status, const nlc_info *info)
         show_atoms(h);
         if (h->set.file[0]) write_contacts(h, step);
     }
-    show_thermo(h, status, info);
-    warn(h, step, status);
+    show_thermo(h, info);
+    warn(h, step);
 }
 
 /* What the ranks have told each other, per step: sides are numbers that cross from one rank to another. */
@@ -162,6 +162,9 @@ void output_times(const host *h)
     const double n = (double)t->steps, count = (double)t->contacts / n, ms = 1e3 / n, ns = 1e9 / n / (count > 0 ? count : 1);
     printf("nlc: %lld steps, %.0f contacts and candidates, %.2f sweeps a step (at most %lld), %lld lists read\n",
            (long long)t->steps, count, (double)t->sweeps / n, (long long)t->most_sweeps, (long long)t->rebuilds);
+    if (t->forces_sum > 0)
+        printf("nlc: %lld solves; forces extrapolated over an interval are off by %.2g of their mean\n", (long long)t->solves,
+               t->missed / t->forces_sum);
     printf("nlc: %-10s%12s%14s\n", "", "ms a step", "ns a contact");
     const struct {
         const char *name;

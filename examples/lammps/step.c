@@ -6,20 +6,56 @@
 
 #include "host.h"
 
-static nlc_status solve(host *h, int64_t step, nlc_info *info)
+/* P = k (gamma + g)^(3/2) with the displacements g of the last solve, extrapolated from the last two. */
+static double extrapolated(const contacts *c, int64_t k, double ratio)
+{
+    return nlc_hertz_force(c->stiffness[k], c->overlap[k] + c->nonlocal[k] + ratio * (c->nonlocal[k] - c->previous[k]));
+}
+
+/* Extrapolated, by how much would the forces be wrong now?  Before c->nonlocal and c->previous change. */
+static void keep_extrapolated(host *h, double ratio)
+{
+    for (int64_t k = 0; k < h->c.count; k++) h->c.hertz[k] = extrapolated(&h->c, k, ratio);
+}
+
+static void compare_extrapolated(host *h)
+{
+    for (int64_t k = 0; k < h->c.count; k++) {
+        h->time.missed += fabs(h->c.hertz[k] - h->c.force[k]);
+        h->time.forces_sum += h->c.force[k];
+    }
+}
+
+static void solve(host *h, int64_t step, nlc_info *info)
 {
     contacts *c = &h->c;
     nlc_status status;
-    if (h->set.predict && step == h->last_step + 1) { /* a run begins with the last step of the one before */
-        status = nlc_predict(c->nonlocal, c->previous, c->count, 1, info);
+    const double ratio = h->set.predict && step > h->solved && h->span > 0 ? (double)(step - h->solved) / (double)h->span : 0;
+    const bool compare = ratio > 0 && h->set.interval > 1;
+    if (compare) keep_extrapolated(h, ratio);
+    if (ratio > 0) {
+        status = nlc_predict(c->nonlocal, c->previous, c->count, ratio, info);
         host_check(status, info, "nlc_predict");
     } else if (c->count > 0) {
         memcpy(c->previous, c->nonlocal, (size_t)c->count * sizeof *c->previous);
     }
-    h->last_step = step;
+    if (step != h->solved)
+        h->span = h->solved >= 0 ? step - h->solved : 0; /* a run begins with the last step of the one before */
+    h->solved = step;
     status = nlc_solve(c->network, c->force, c->nonlocal, c->overlap, c->normal, info);
     host_check(status, info, "nlc_solve");
-    return status;
+    if (compare) compare_extrapolated(h);
+    h->status = status;
+    h->residual = info->residual;
+    h->time.solves++;
+}
+
+/* Between two solves. */
+static void extrapolate(host *h, int64_t step, nlc_info *info)
+{
+    info->residual = h->residual;
+    const double ratio = h->span > 0 ? (double)(step - h->solved) / (double)h->span : 0;
+    for (int64_t k = 0; k < h->c.count; k++) h->c.force[k] = extrapolated(&h->c, k, ratio);
 }
 
 /* Of what is added between two particles; walls have no part in LAMMPS' pressure. */
@@ -66,21 +102,25 @@ void step_callback(void *pointer, int64_t step, int owned, int *tag, double **x,
     double at[6]; /* processor time: other work on the machine does not count */
     at[0] = processor_time();
     settings_walls(h);
-    if (contacts_stale(h, tag, x, owned)) {
+    const bool stale = contacts_stale(h, tag, x, owned);
+    if (stale) {
         contacts_find(h, tag, x, owned);
         h->time.rebuilds++;
     }
     at[1] = processor_time();
     contacts_update(h, x);
     at[2] = processor_time();
-    const nlc_status status = solve(h, step, &info);
+    if (stale || step <= h->solved || step - h->solved >= h->set.interval)
+        solve(h, step, &info);
+    else
+        extrapolate(h, step, &info);
     at[3] = processor_time();
     differences(h);
     if (h->bodies > 0) memset(f[0], 0, 3 * (size_t)h->bodies * sizeof(double)); /* LAMMPS has rows for its ghosts, too */
     nlc_status added = nlc_assemble(h->c.network, h->bodies > 0 ? f[0] : at, 0, NULL, h->c.hertz, h->c.normal, NULL);
     host_check(added, NULL, "nlc_assemble");
     at[4] = processor_time();
-    output_step(h, step, status, &info);
+    output_step(h, step, &info);
     at[5] = processor_time();
     double *const spent[] = {&h->time.rebuild, &h->time.geometry, &h->time.solve, &h->time.forces, &h->time.output};
     for (int k = 0; k < 5; k++) *spent[k] += at[k + 1] - at[k];
