@@ -25,7 +25,7 @@ static const known models[] = {{"hertz", "1 Hertz", "#888888", .43},
                                {"point-force", "2 point forces, exact sphere", "#3a8a5f", .44},
                                {"gonzalez-cuitino", "3 Case I", "#e58a0c", .70},
                                {"half-space", "4 half-space", "#1c6fb5", .80},
-                               {"half-space-1.5", "5 MC-DEM: half-space times 1.5", "#7fb2dd", 1},
+                               {"half-space-1.6", "5 MC-DEM: half-space times 1.6", "#7fb2dd", 1},
                                {"sphere", "6 exact sphere", "#35133d", 0}};
 enum { MODELS = sizeof models / sizeof models[0] };
 
