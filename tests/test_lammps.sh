@@ -143,6 +143,17 @@ else
     ranks=' (no mpirun: not looked at on several ranks)'
 fi
 
+# The compression's plate comes down: what is printed is the sum over the contacts at that wall, the sixth.
+data c_hydrogel514_rest
+run in.compression plate "-var data c_hydrogel514_rest.data -var settle 0 -var steps 200 -var hold 0 -var strain 0.02"
+near "force on the plate" "$(sed -n '$p' "$tmp/plate.csv" | cut -d, -f3)" \
+    "$(awk -F, '$2 == -6 && $8 == 1 { sum += $4 } END { print sum }' "$tmp/plate.200.csv")" 1e-5
+awk -F, 'NR == 2 { before = $3 } END { exit !($2 == 0.02 && $3 > 10 * before) }' "$tmp/plate.csv" || fail "the plate does not come down"
+$CC -std=c11 -D_POSIX_C_SOURCE=200809L -Wall -Wextra -Werror -I"$S/bench" -o "$tmp/plot" "$lammps/plot.c" "$S/bench/line_chart.c" -lm
+(cd "$tmp" && mv plate.csv hertz.csv && mv plate.200.csv hertz.200.csv && ./plot picture.svg data.csv 200 hertz >/dev/null && [ -s picture.svg ]) ||
+    fail "there is no picture"
+sh -n "$S/bench/peers/price"
+
 # Without the fix it is LAMMPS; what is missing is said.
 printf 'units si\nprint "just LAMMPS"\n' >"$tmp/plain.in"
 (cd "$tmp" && "$B/examples/nlc-lammps" -in plain.in | grep -q '^just LAMMPS') || fail "a script without the fix does not run"

@@ -4,9 +4,10 @@
  *
  *     nlc-lammps.c   the program: LAMMPS with a callback between its own forces and its integrator
  *     settings.c     LAMMPS variables -> options, materials, walls
- *     contacts.c     LAMMPS' neighbour list -> contacts and network, whenever that is needed
+ *     search.c       LAMMPS' neighbour list -> pairs, whenever that is needed
+ *     contacts.c     pairs -> network; overlaps and normals
  *     ranks.c        who owns the others' particles, and what the ranks tell each other in a sweep
- *     tags.c         a table of particles' tags
+ *     mail.c, tags.c messages from any rank to any other; a table of particles' tags
  *     step.c         the callback: overlaps -> forces, and what is left for LAMMPS to show
  *     output.c       thermo, per-atom values and a file of contacts
  */
@@ -103,7 +104,10 @@ static inline double host_share(const host *h, int64_t contact)
 void settings_read(host *h);
 void settings_walls(host *h); /* where they are now */
 
-bool contacts_stale(host *h, const int32_t *tag, double **x, int32_t owned);
+nlc_particles search_atoms(const host *h); /* all that LAMMPS has here, ghosts too */
+nlc_positions search_positions(const host *h, double **x);
+bool search_is_stale(host *h, const int32_t *tag, double **x, int32_t owned);
+void search_pairs(host *h, const int32_t *tag, double **x, int32_t owned);
 void contacts_find(host *h, const int32_t *tag, double **x, int32_t owned);
 void contacts_update(host *h, double **x); /* overlaps and normals */
 

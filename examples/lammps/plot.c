@@ -169,6 +169,7 @@ int main(int argc, char **argv)
         line_chart_legend(&chart, r->model->label, r->model->colour, LINE_SOLID);
         count++;
     }
+    if (!(strain > 0)) return fputs("plot: nothing is compressed\n", stderr), EXIT_FAILURE;
     draw_tables(&chart, runs, count, strain);
     draw_distribution(&chart, runs, count);
     draw_ratios(&chart, runs, count);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "host.h"
+#include "mail.h"
 #include "tags.h"
 
 void ranks_init(ranks *r, MPI_Comm world)
@@ -21,64 +22,6 @@ void ranks_free(ranks *r)
     for (size_t k = 0; k < sizeof memory / sizeof *memory; k++) free(memory[k]);
 }
 
-/* --------------------------------------------------------------------------------------------------------------- mail -- */
-
-/* Records for any ranks; returns those that have come, in the order of the ranks that sent them. */
-typedef struct mail {
-    size_t size;
-    int64_t count, room;
-    char *record;
-    int *to;
-} mail;
-
-static void post(mail *m, const void *record, int to)
-{
-    if (m->count == m->room) {
-        m->room = 2 * m->room + 64;
-        m->record = host_room(m->record, (size_t)m->room * m->size);
-        m->to = host_room(m->to, (size_t)m->room * sizeof *m->to);
-    }
-    memcpy(m->record + (size_t)m->count * m->size, record, m->size);
-    m->to[m->count++] = to;
-}
-
-/* Sums of the counts before each rank; returns that of all. */
-static int offsets(int *offset, const int *count, int most)
-{
-    int sum = 0;
-    for (int k = 0; k < most; k++) {
-        offset[k] = sum;
-        sum += count[k];
-    }
-    return sum;
-}
-
-static void *deliver(const ranks *r, mail *m, int64_t *received)
-{
-    const size_t all = (size_t)r->count;
-    int *count = host_room(NULL, 5 * all * sizeof *count), *offset = count + all, *next = offset + all;
-    int *in_count = next + all, *in_offset = in_count + all;
-    char *out = host_room(NULL, (size_t)m->count * m->size);
-    memset(count, 0, all * sizeof *count);
-    for (int64_t k = 0; k < m->count; k++) count[m->to[k]] += (int)m->size; /* in bytes */
-    offsets(offset, count, r->count);
-    memcpy(next, offset, all * sizeof *next);
-    for (int64_t k = 0; k < m->count; k++) {
-        memcpy(out + next[m->to[k]], m->record + (size_t)k * m->size, m->size);
-        next[m->to[k]] += (int)m->size;
-    }
-    MPI_Alltoall(count, 1, MPI_INT, in_count, 1, MPI_INT, r->world);
-    const int bytes = offsets(in_offset, in_count, r->count);
-    char *in = host_room(NULL, (size_t)bytes);
-    MPI_Alltoallv(out, count, offset, MPI_BYTE, in, in_count, in_offset, MPI_BYTE, r->world);
-    *received = bytes / (int64_t)m->size;
-    free(count);
-    free(out);
-    free(m->record);
-    free(m->to);
-    return in;
-}
-
 /* ------------------------------------------------------------------------------------------------------------- owners -- */
 
 typedef struct question {
@@ -89,8 +32,8 @@ static tags take_reports(const ranks *r, const int32_t *tag, int32_t owned)
 {
     mail reports = {.size = sizeof(question)};
     int64_t count;
-    for (int32_t k = 0; k < owned; k++) post(&reports, &(question){tag[k], r->rank, 0}, tag[k] % r->count);
-    question *report = deliver(r, &reports, &count);
+    for (int32_t k = 0; k < owned; k++) mail_post(&reports, &(question){tag[k], r->rank, 0}, tag[k] % r->count);
+    question *report = mail_deliver(&reports, r->world, &count);
     tags homes = tags_new(count);
     for (int64_t k = 0; k < count; k++) tags_put(&homes, report[k].tag, report[k].from);
     free(report);
@@ -102,12 +45,12 @@ static void ask_homes(const ranks *r, const tags *homes, const int32_t *wanted, 
 {
     mail questions = {.size = sizeof(question)}, answers = {.size = sizeof(question)};
     int64_t received;
-    for (int32_t k = 0; k < count; k++) post(&questions, &(question){wanted[k], r->rank, k}, wanted[k] % r->count);
-    question *asked = deliver(r, &questions, &received);
+    for (int32_t k = 0; k < count; k++) mail_post(&questions, &(question){wanted[k], r->rank, k}, wanted[k] % r->count);
+    question *asked = mail_deliver(&questions, r->world, &received);
     for (int64_t k = 0; k < received; k++)
-        post(&answers, &(question){asked[k].tag, tags_get(homes, asked[k].tag), asked[k].number}, asked[k].from);
+        mail_post(&answers, &(question){asked[k].tag, tags_get(homes, asked[k].tag), asked[k].number}, asked[k].from);
     free(asked);
-    asked = deliver(r, &answers, &received);
+    asked = mail_deliver(&answers, r->world, &received);
     for (int64_t k = 0; k < received; k++) owner[asked[k].number] = asked[k].from;
     free(asked);
 }
@@ -129,10 +72,10 @@ static ranks_state *send_states(const ranks *r, const tags *left, const ranks_st
         const uint64_t body[2] = {state[k].key >> 32, state[k].key & UINT32_MAX};
         for (int b = 0; b < 2; b++) {
             const int32_t to = body[b] < WALL_KEY ? tags_get(left, (int32_t)body[b]) : -1;
-            if (to >= 0) post(&states_out, &state[k], to);
+            if (to >= 0) mail_post(&states_out, &state[k], to);
         }
     }
-    return deliver(r, &states_out, arrivals);
+    return mail_deliver(&states_out, r->world, arrivals);
 }
 
 ranks_state *ranks_find(ranks *r, const int32_t *tag, int32_t owned, const int32_t *ghost_tag, int32_t *ghost_owner,

@@ -102,7 +102,7 @@ void step_callback(void *pointer, int64_t step, int owned, int *tag, double **x,
     double at[6]; /* processor time: other work on the machine does not count */
     at[0] = processor_time();
     settings_walls(h);
-    const bool stale = contacts_stale(h, tag, x, owned);
+    const bool stale = search_is_stale(h, tag, x, owned);
     if (stale) {
         contacts_find(h, tag, x, owned);
         h->time.rebuilds++;
