@@ -67,6 +67,12 @@ pages=0 examples=0 skipped=''
 if printf '#include <omp.h>\nint main(void) { return omp_get_max_threads() < 1; }\n' >"$tmp/omp.c" &&
     $CC ${CFLAGS-} -fopenmp -o "$tmp/omp" "$tmp/omp.c" ${LDFLAGS-} 2>/dev/null; then openmp=-fopenmp
 else openmp=-Wno-unknown-pragmas skipped=" (without threads)"; fi
+ranks=
+if [ -z "${EMULATOR-}" ] && command -v mpicc >/dev/null && command -v mpirun >/dev/null; then
+    ranks='mpirun -n 3' # as root, and on fewer processors than ranks: for two generations of Open MPI
+    export OMPI_CC="$CC" MPICH_CC="$CC" OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+    export OMPI_MCA_rmaps_base_oversubscribe=1 PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe
+fi
 for page in *.[37]; do
     pages=$((pages + 1))
     awk -v to="$tmp/${page%.*}" -v quote="'" '
@@ -80,11 +86,15 @@ for page in *.[37]; do
     here && /^\.Bd -literal/ { show = 1; n++ }' "$page"
     [ -f "$tmp/${page%.*}.1.c" ] || fail "$page has no example"
     for source in "$tmp/${page%.*}".*.c; do
-        program=${source%.c} threads=''
+        program=${source%.c} threads='' compiler=$CC start=${EMULATOR-}
+        if grep -q '^#include <mpi.h>' "$source"; then
+            [ -n "$ranks" ] || { skipped="$skipped (without ranks)" && continue; }
+            compiler=mpicc start=$ranks
+        fi
         ! grep -q '^#pragma omp' "$source" || threads=$openmp
-        $CC ${CFLAGS-} $threads -std=c99 -Wall -Wextra -Werror -I"$S/include" -o "$program" "$source" "$B/libnlcontact.a" \
+        $compiler ${CFLAGS-} $threads -std=c99 -Wall -Wextra -Werror -I"$S/include" -o "$program" "$source" "$B/libnlcontact.a" \
             ${LDFLAGS-} -lm || fail "an example of $page does not compile"
-        ${EMULATOR-} "$program" >"$program.out" 2>&1 || { cat "$program.out"; fail "an example of $page fails"; }
+        $start "$program" >"$program.out" 2>&1 || { cat "$program.out"; fail "an example of $page fails"; }
         examples=$((examples + 1))
     done
 done
