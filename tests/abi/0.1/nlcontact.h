@@ -64,6 +64,9 @@ extern "C" {
     X(NLC_ERROR_SAME_PLACE,     -32, "two centres are in the same place",                                "contact")         \
     X(NLC_ERROR_CELL,           -33, "a periodic cell is no cell, or narrower than two diameters",       "contact or -1")   \
     X(NLC_ERROR_CAPACITY,       -34, "the room given is too small for the result",                       "room needed")     \
+    X(NLC_ERROR_GHOST,          -35, "a contact has no particle that is owned here",                     "contact")         \
+    X(NLC_ERROR_REMOTE,         -36, "another rank has failed",                                          "-1")              \
+    X(NLC_ERROR_CALLBACK,       -37, "a callback has failed",                                            "what it returned")\
     X(NLC_WARNING_CLOSE,          1, "circles of contact overlap: the model does not hold there",        "-1")              \
     X(NLC_WARNING_ROUNDING,       2, "rounding keeps the forces from reaching the tolerance",            "-1")              \
     X(NLC_WARNING_WEAKENED,       4, "beyond the stable branch: the coupling was weakened",              "-1")              \
@@ -170,6 +173,15 @@ enum {
 
 typedef void (*nlc_parallel_callback)(void *context, void (*task)(void *work, int64_t k), void *work, int64_t count);
 
+typedef int (*nlc_exchange_callback)(void *context, double *side);
+
+typedef int (*nlc_reduce_callback)(void *context, double *values, int32_t count, int32_t operation);
+
+enum {
+    NLC_REDUCE_SUM = 0,
+    NLC_REDUCE_MAX = 1
+};
+
 typedef struct nlc_options {
     size_t struct_size;
     int32_t model;
@@ -184,6 +196,10 @@ typedef struct nlc_options {
     size_t cache_size;
     nlc_parallel_callback parallel_for;
     void *parallel_context;
+    int64_t owned_particles;
+    nlc_exchange_callback exchange;
+    nlc_reduce_callback reduce;
+    void *context;
 } nlc_options;
 
 typedef struct nlc_info {
@@ -260,6 +276,10 @@ NLC_API nlc_status nlc_tangent_bound(nlc_network *network, double *NLC_RESTRICT 
 NLC_API nlc_status nlc_assemble(const nlc_network *network, double *NLC_RESTRICT F, ptrdiff_t F_stride,
                                 double *NLC_RESTRICT F_wall, const double *NLC_RESTRICT force,
                                 const double *NLC_RESTRICT normal, nlc_info *info);
+
+NLC_API nlc_status nlc_assemble_turning(const nlc_network *network, double *NLC_RESTRICT F, ptrdiff_t F_stride,
+                                        const double *NLC_RESTRICT force, const double *NLC_RESTRICT overlap,
+                                        const double *NLC_RESTRICT normal, nlc_info *info);
 
 NLC_API nlc_status nlc_assemble_sliding(const nlc_network *network, double *NLC_RESTRICT F, ptrdiff_t F_stride,
                                         double *NLC_RESTRICT torque, ptrdiff_t torque_stride, double *NLC_RESTRICT F_wall,
