@@ -215,7 +215,7 @@ $(B)/tests/%.o: $(S)/tests/%.c
 $(B)/tests/%: $(B)/tests/%.o $(TEST_COMMON) $(BENCH_COMMON) $(STATIC)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -pthread -o $@ $^ $(CHECK_LIBS) $(LIBS)
 
-check: lib packing $(FIGURES) $(BEDS) $(HYDROGEL) $(TESTS) $(addprefix $(B)/bench/,accuracy functions tradeoff scale) scale instructions) ## build and run every test (needs what `make setup` installs)
+check: lib packing $(FIGURES) $(BEDS) $(HYDROGEL) $(TESTS) $(addprefix $(B)/bench/,accuracy functions tradeoff scale instructions) ## build and run every test (needs what `make setup` installs)
 	@S='$(abspath $(S))' B='$(abspath $(B))' CC='$(CC)' CXX='$(CXX)' FC='$(FC)' MAKE='$(MAKE)' EMULATOR='$(EMULATOR)' \
 		PKG_CONFIG='$(PKG_CONFIG)' VERSION='$(VERSION)' sh $(S)/tests/run $(abspath $(TESTS) $(TEST_SCRIPTS))
 

@@ -37,7 +37,7 @@ class Options(_Struct):
                 ('max_sweeps', c_int64), ('prefactor', c_double), ('simd', c_int32), ('points', c_int32), ('stiffness', c_void_p),
                 ('cache', c_void_p), ('cache_size', c_size_t),
                 ('parallel_for', c_void_p), ('parallel_context', c_void_p),
-                ('owned_particles', c_int64), ('exchange', c_void_p), ('reduce', c_void_p), ('context', c_void_p)]
+                ('owned_particles', c_int64), ('exchange', c_void_p), ('reduce', c_void_p), ('context', c_void_p), ('reserved', c_void_p)]
 
 
 class Info(_Struct):

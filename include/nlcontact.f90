@@ -92,7 +92,7 @@ module nlcontact
     end type
 
     type, bind(c) :: nlc_options
-        integer(c_size_t) :: struct_size = 120
+        integer(c_size_t) :: struct_size = 128
         integer(c_int32_t) :: model = 0
         integer(c_int32_t) :: method = 0
         real(c_double) :: tolerance = 0
@@ -109,6 +109,7 @@ module nlcontact
         type(c_funptr) :: exchange = c_null_funptr
         type(c_funptr) :: reduce = c_null_funptr
         type(c_ptr) :: context = c_null_ptr
+        type(c_ptr) :: reserved = c_null_ptr
     end type
 
     type, bind(c) :: nlc_info

@@ -562,6 +562,7 @@ typedef struct nlc_options {
     nlc_exchange_callback exchange; /* both or none */
     nlc_reduce_callback reduce;
     void *context;           /* for the callbacks */
+    const void *reserved;    /* NULL */
 } nlc_options;
 
 /*

@@ -38,6 +38,8 @@ nlc_status nlc_read_settings(nlc_settings *settings, const nlc_options *o, int64
     if (o->owned_particles < 0) return NLC_ERROR_OPTION;
     *culprit = o->exchange ? offsetof(nlc_options, reduce) : offsetof(nlc_options, exchange);
     if (!o->exchange != !o->reduce) return NLC_ERROR_NULL_FIELD;
+    *culprit = offsetof(nlc_options, reserved);
+    if (o->reserved) return NLC_ERROR_OPTION;
     *culprit = -1;
     const bool undeformed = o->model == NLC_MODEL_HALF_SPACE && o->points == NLC_POINTS_UNDEFORMED;
     settings->model = undeformed ? &nlc_half_space_undeformed : &nlc_models[o->model];

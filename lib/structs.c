@@ -21,6 +21,7 @@ static const size_t options_ends[] = {
     END(nlc_options, cache),       END(nlc_options, cache_size),
     END(nlc_options, parallel_for), END(nlc_options, parallel_context),
     END(nlc_options, owned_particles), END(nlc_options, exchange), END(nlc_options, reduce), END(nlc_options, context),
+    END(nlc_options, reserved),
 };
 static const size_t positions_ends[] = {
     END(nlc_positions, struct_size), END(nlc_positions, x),          END(nlc_positions, y),

@@ -166,6 +166,11 @@ START_TEST(what_is_refused)
     nlc_assert_quiet(ck_assert_int_eq(nlc_set_options(s.network, &s.options, &info), NLC_ERROR_ALIGNMENT));
     ck_assert_int_eq(info.culprit, 3);
     s.options.cache = cache;
+    s.options.reserved = cache;
+    nlc_assert_quiet(ck_assert_int_eq(nlc_set_options(s.network, &s.options, &info), NLC_ERROR_OPTION));
+    ck_assert_int_eq(info.culprit, offsetof(nlc_options, reserved));
+    s.options.reserved = NULL;
+    s.options.cache = cache;
     ck_assert_int_eq(nlc_set_options(s.network, &s.options, &info), NLC_OK);
     scene_free(&s);
 }

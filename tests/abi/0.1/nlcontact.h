@@ -200,6 +200,7 @@ typedef struct nlc_options {
     nlc_exchange_callback exchange;
     nlc_reduce_callback reduce;
     void *context;
+    const void *reserved;
 } nlc_options;
 
 typedef struct nlc_info {
