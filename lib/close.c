@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* close.c - circles of contact that overlap each other: point forces are no model of these. */
-#include "network.h"
+#include "tree.h"
 
 /* The overlap that a contact has, or would have alone if others push it open. */
 static double alone(const nlc_network *n, const double *overlap, int64_t c)
@@ -53,6 +53,8 @@ static bool overlap_on(const nlc_network *n, int64_t k, const double *overlap, c
 {
     const int64_t end = n->start[k + 1];
     nlc_block a, b;
+    double least;
+    if (nlc_least_apart(&least, n, normal, k, radius_of, overlap, 0)) return least < 0;
     for (int64_t p = n->start[k]; p < end; p += NLC_BLOCK) {
         const int64_t p_end = end - p > NLC_BLOCK ? p + NLC_BLOCK : end;
         gather_circles(&a, n, overlap, normal, k, p, p_end);

@@ -9,6 +9,7 @@
  * from those of Hertz by what the law makes of G_c.
  */
 #include "iteration.h"
+#include "tree.h"
 
 #define DOUBT 2.0 /* sums of forces, in units of Hertz's */
 
@@ -32,6 +33,7 @@ static double law(const nlc_iteration *q, int64_t c, double more)
 static double nearest(const nlc_network *n, const double *normal, int64_t particle)
 {
     double least = 4;
+    if (nlc_least_apart(&least, n, normal, particle, 0, 0, 4)) return least;
     for (int64_t p = n->start[particle]; p < n->start[particle + 1]; p++)
         for (int64_t r = n->start[particle]; r < p; r++) {
             const int64_t e = n->entry[p], f = n->entry[r];

@@ -8,6 +8,7 @@
 #include "parallel.h"
 #include "particles.h"
 #include "structs.h"
+#include "tree.h"
 
 /* Takes count elements from the memory of which *used bytes are gone; *used becomes SIZE_MAX if that overflows. */
 static void *take(char *memory, size_t *used, int64_t count, size_t size)
@@ -86,6 +87,9 @@ static size_t lay_out(nlc_network *n, char *memory)
     n->weakening = take(memory, &used, n->particle_count, sizeof *n->weakening);
     n->closest = take(memory, &used, n->particle_count, sizeof *n->closest);
     n->changed = take(memory, &used, n->particle_count, sizeof *n->changed);
+    n->room_size = nlc_tree_room(n->contact_count);
+    n->order = take(memory, &used, n->room_size > 0 ? n->contact_count : 0, sizeof *n->order);
+    n->room = take(memory, &used, n->room_size, sizeof *n->room);
     lay_out_part(n, memory, &used);
     n->entry = take(memory, &used, 2 * n->contact_count, sizeof *n->entry);
     n->side = take(memory, &used, 2 * n->contact_count, sizeof *n->side);
@@ -124,6 +128,8 @@ void nlc_build_adjacency(nlc_network *n)
         if (n->i[c] == n->j[c]) n->self_contacts = true;
     }
     int64_t sum = 0;
+    n->most_contacts = 0;
+    for (int64_t k = 0; k < n->particle_count; k++) n->most_contacts = n->start[k] > n->most_contacts ? n->start[k] : n->most_contacts;
     for (int64_t k = 0; k <= n->particle_count; k++) n->start[k] = sum += n->start[k];
     /* start[k] is now the end of k's list: filled from behind it becomes its beginning */
     for (int64_t c = n->contact_count - 1; c >= 0; c--) {

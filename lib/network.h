@@ -59,6 +59,7 @@ struct nlc_network {
     nlc_settings settings;
     nlc_ranks ranks;
     bool self_contacts;     /* some contact has i = j */
+    int64_t most_contacts;  /* of a particle */
     bool connected;         /* all contacts are one cluster, see clusters.c */
     int scale_exponent;     /* no U reaches 2^ this */
     int coupling_exponent;  /* nor does any particle's kernel constant 2^ this */
@@ -107,6 +108,11 @@ struct nlc_network {
     int32_t *body;        /* [bodies] numbers of the part's particles; from the end backwards, of its walls */
     double *part_overlap; /* [contacts of the part] */
     double *part_normal;  /* [contacts of the part][3] */
+    /* For trees over the directions on a particle with very many contacts, see tree.h */
+    int32_t *order; /* [contacts] */
+    double *room;   /* [room_size] */
+    int64_t room_size;
+    int64_t evaluations; /* of the kernel on such particles, ever: for tests */
 };
 
 /* Whether this is a network made by nlc_network_init. */
@@ -202,6 +208,7 @@ static inline double nlc_scale_of(const nlc_network *n, int64_t particle)
 {
     return n->scale[particle] * n->unit;
 }
+
 
 /* What an iteration leaves behind: the nonlocal displacement is in network->current. */
 typedef struct nlc_outcome {

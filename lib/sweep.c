@@ -7,6 +7,7 @@
 #include "collective.h"
 #include "parallel.h"
 #include "structs.h"
+#include "tree.h"
 #include "vector.h"
 
 /* Fills a block from a particle's list; returns the largest magnitude among the forces. */
@@ -115,22 +116,32 @@ static double squared_distance(const double *normal, int64_t e, int64_t f)
 
 int64_t nlc_find_coincident(const nlc_network *n, const double *normal, int64_t particle)
 {
+    int64_t place;
+    if (nlc_later_below(&place, n, normal, particle, nlc_pow2(-180))) return place < 0 ? -1 : n->entry[place] >> 1;
     for (int64_t p = n->start[particle]; p < n->start[particle + 1]; p++)
         for (int64_t q = n->start[particle]; q < p; q++)
             if (squared_distance(normal, n->entry[p], n->entry[q]) < nlc_pow2(-180)) return n->entry[p] >> 1;
     return -1;
 }
 
+/* The smaller of that and the squared distance of the two closest directions of a particle. */
+static double closest(const nlc_network *n, const double *normal, int64_t k, double smallest)
+{
+    double least;
+    if (nlc_least_apart(&least, n, normal, k, 0, 0, smallest)) return least;
+    for (int64_t p = n->start[k]; p < n->start[k + 1]; p++)
+        for (int64_t q = n->start[k]; q < p; q++) {
+            const double s = squared_distance(normal, n->entry[p], n->entry[q]);
+            smallest = s < smallest ? s : smallest;
+        }
+    return smallest;
+}
+
 /* Exponent above 1 / the distance between the two closest directions on any particle. */
 static int closeness(const nlc_network *n, const double *normal)
 {
     double smallest = 4;
-    for (int64_t k = 0; k < n->owned; k++)
-        for (int64_t p = n->start[k]; p < n->start[k + 1]; p++)
-            for (int64_t q = n->start[k]; q < p; q++) {
-                double s = squared_distance(normal, n->entry[p], n->entry[q]);
-                smallest = s < smallest ? s : smallest;
-            }
+    for (int64_t k = 0; k < n->owned; k++) smallest = closest(n, normal, k, smallest);
     return nlc_exponent_above(smallest) < -1022 ? 512 : 1 - nlc_exponent_above(smallest) / 2;
 }
 
