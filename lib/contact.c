@@ -38,31 +38,21 @@ double nlc_circle2(const nlc_network *n, int64_t e, int64_t particle)
     return circle2(n, e, particle, nlc_length_of(n, particle));
 }
 
-void nlc_set_shapes(nlc_block *b, const nlc_network *n, nlc_response response, const double *normal, int64_t particle,
-                    int64_t begin)
+void nlc_set_shape(nlc_block *b, int d, const nlc_network *n, nlc_response response, int64_t e, int64_t particle)
 {
-    const double length = nlc_length_of(n, particle);
     const nlc_shape shape = n->settings.model->shape;
-    b->tilted = false;
-    for (int d = 0; d < b->count; d++) {
-        const int64_t e = nlc_side_at(n, normal, begin + d);
-        if (shape == NLC_SHAPE_PLACE) {
-            b->shape[d] = n->own[e];
-            continue;
-        }
-        if (shape == NLC_SHAPE_POINT) {
-            b->shape[d] = 0;
-            continue;
-        }
-        const double t2 = circle2(n, e, particle, length);
-        if (shape == NLC_SHAPE_RADIUS) {
-            b->shape[d] = sqrt(t2);
-            continue;
-        }
-        b->shape[d] = b->force[d] * t2 * (response == NLC_OF_CHANGES ? 1 / 6. : 0.1);
-        b->tilt[d] = nlc_tilt(n, e, particle);
-        b->tilted |= fabs(b->tilt[d]) > NLC_NO_TILT;
+    if (shape == NLC_SHAPE_POINT || shape == NLC_SHAPE_PLACE) {
+        b->shape[d] = shape == NLC_SHAPE_PLACE ? n->own[e] : 0;
+        return;
     }
+    const double t2 = nlc_circle2(n, e, particle);
+    if (shape == NLC_SHAPE_RADIUS) {
+        b->shape[d] = sqrt(t2);
+        return;
+    }
+    b->shape[d] = b->force[d] * t2 * (response == NLC_OF_CHANGES ? 1 / 6. : 0.1);
+    b->tilt[d] = nlc_tilt(n, e, particle);
+    b->tilted |= fabs(b->tilt[d]) > NLC_NO_TILT;
 }
 
 /*
@@ -97,25 +87,22 @@ static double own_slope(const nlc_network *n, int64_t e, int64_t particle, doubl
     return slope > STEEPEST ? -STEEPEST : slope < -STEEPEST ? STEEPEST : -slope;
 }
 
-void nlc_add_self(const nlc_block *b, nlc_network *n, nlc_response response, const double *force, const double *normal,
-                  int64_t particle, int64_t begin)
+void nlc_add_self(nlc_network *n, nlc_response response, const double *force, int64_t e, int64_t particle, double tilt,
+                  double second, double third)
 {
     const double length = nlc_length_of(n, particle), U = nlc_scale_of(n, particle);
-    for (int d = 0; d < b->count; d++) {
-        const int64_t e = nlc_side_at(n, normal, begin + d), c = e >> 1;
-        const double t2 = circle2(n, e, particle, length), moment = t2 * (b->second[d] + b->tilt[d] * b->third[d]);
-        if (response == NLC_OF_CHANGES) {
-            n->side[e] += -moment / 6 + n->own[e] * force[c];
-            continue;
-        }
-        const nlc_self self = n->settings.model->self(nlc_kernel_of(n, particle), t2, b->tilt[d]);
-        const double p = 0.5 * (force[c] + fabs(force[c])); /* a pull acts as a point force */
-        const double wide = quartic(n, e, particle, t2) * length;
-        if (response == NLC_OF_ENERGY) {
-            n->side[e] -= moment / 10 + U * p * self.energy + wide * (2. / 35);
-            continue;
-        }
-        n->side[e] -= moment / 6 + U * p * self.displacement + wide / 15;
-        if (response == NLC_OF_STATE) n->own[e] = own_slope(n, e, particle, p, self, b->tilt[d], moment / 6, wide / 15);
+    const double t2 = circle2(n, e, particle, length), moment = t2 * (second + tilt * third);
+    if (response == NLC_OF_CHANGES) {
+        n->side[e] += -moment / 6 + n->own[e] * force[e >> 1];
+        return;
     }
+    const nlc_self self = n->settings.model->self(nlc_kernel_of(n, particle), t2, tilt);
+    const double p = 0.5 * (force[e >> 1] + fabs(force[e >> 1])); /* a pull acts as a point force */
+    const double wide = quartic(n, e, particle, t2) * length;
+    if (response == NLC_OF_ENERGY) {
+        n->side[e] -= moment / 10 + U * p * self.energy + wide * (2. / 35);
+        return;
+    }
+    n->side[e] -= moment / 6 + U * p * self.displacement + wide / 15;
+    if (response == NLC_OF_STATE) n->own[e] = own_slope(n, e, particle, p, self, tilt, moment / 6, wide / 15);
 }

@@ -14,18 +14,15 @@
 static double gather(nlc_block *b, const nlc_network *n, nlc_response response, const double *force, const double *normal,
                      int64_t particle, int64_t begin, int64_t end)
 {
-    const double U = nlc_scale_of(n, particle);
     double largest = 0;
+    b->tilted = false;
     b->count = (int)(end - begin);
     for (int d = 0; d < b->count; d++) {
-        int64_t e = nlc_side_at(n, normal, begin + d), c = e >> 1;
-        nlc_set_direction(b, d, normal, e);
-        b->force[d] = U * force[c];
-        b->displacement[d] = b->second[d] = b->third[d] = 0;
-        double p = fabs(force[c]);
+        const int64_t e = nlc_side_at(n, normal, begin + d);
+        nlc_put_side(b, d, n, response, force, normal, e, particle);
+        const double p = fabs(force[e >> 1]);
         largest = p > largest ? p : largest;
     }
-    if (n->settings.model->shape != NLC_SHAPE_NONE) nlc_set_shapes(b, n, response, normal, particle, begin);
     return largest;
 }
 
@@ -33,31 +30,51 @@ static double gather(nlc_block *b, const nlc_network *n, nlc_response response, 
 static void store(const nlc_block *a, nlc_network *n, nlc_response response, const double *force, const double *normal,
                   int64_t particle, int64_t begin)
 {
-    for (int d = 0; d < a->count; d++) n->side[nlc_side_at(n, normal, begin + d)] = a->displacement[d];
-    if (n->settings.model->self) nlc_add_self(a, n, response, force, normal, particle, begin);
+    for (int d = 0; d < a->count; d++) {
+        const int64_t e = nlc_side_at(n, normal, begin + d);
+        n->side[e] = a->displacement[d];
+        if (n->settings.model->self) nlc_add_self(n, response, force, e, particle, a->tilt[d], a->second[d], a->third[d]);
+    }
 }
 
-/* More contacts than a block holds: each block with itself, then with all others. */
+static void add(const nlc_block *b, nlc_network *n, const double *normal, int64_t begin)
+{
+    for (int d = 0; d < b->count; d++) n->side[nlc_side_at(n, normal, begin + d)] += b->displacement[d];
+}
+
+static int64_t block_end(int64_t begin, int64_t end)
+{
+    return end - begin > NLC_BLOCK ? begin + NLC_BLOCK : end;
+}
+
+/*
+ * More contacts than a block holds: each block with itself and with those behind it.  Where there are more sums than displacements,
+ * which alone have a place between blocks, it meets those before it, too, and all pairs are looked at twice.
+ */
 static bool displace_in_blocks(nlc_network *n, nlc_response response, const double *force, const double *normal,
                                int64_t particle, double *largest)
 {
     const nlc_model *model = n->settings.model;
     const nlc_kernel *kernel = nlc_kernel_of(n, particle);
     const int64_t begin = n->start[particle], end = n->start[particle + 1];
+    const bool once = !model->self;
     nlc_block a, b;
     bool distinct = true;
+    for (int64_t p = begin; p < end && once; p++) n->side[n->entry[p]] = 0;
     for (int64_t p = begin; p < end; p += NLC_BLOCK) {
-        const double f = gather(&a, n, response, force, normal, particle, p, end - p > NLC_BLOCK ? p + NLC_BLOCK : end);
+        const double f = gather(&a, n, response, force, normal, particle, p, block_end(p, end));
         *largest = f > *largest ? f : *largest;
         a.kept = NULL;
         a.known = false;
         distinct &= model->within(&a, kernel);
-        for (int64_t q = begin; q < end; q += NLC_BLOCK) {
+        for (int64_t q = once ? p + NLC_BLOCK : begin; q < end; q += NLC_BLOCK) {
             if (q == p) continue;
-            gather(&b, n, response, force, normal, particle, q, end - q > NLC_BLOCK ? q + NLC_BLOCK : end);
+            gather(&b, n, response, force, normal, particle, q, block_end(q, end));
             distinct &= model->between(&a, &b, kernel);
+            if (once) add(&b, n, normal, q);
         }
-        store(&a, n, response, force, normal, particle, p);
+        if (once) add(&a, n, normal, p);
+        else store(&a, n, response, force, normal, particle, p);
     }
     return distinct;
 }
