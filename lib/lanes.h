@@ -292,7 +292,8 @@ static int64_t kept_in(const nlc_network *n, int64_t first, int64_t end)
     return sum;
 }
 
+#include "lanes_blocks.h"
 #include "lanes_bound.h"
 #include "lanes_residuals.h"
 
-const nlc_variant VARIANT = {displace_window, kept_in, mark_above, residuals};
+const nlc_variant VARIANT = {displace_window, kept_in, mark_above, residuals, between};

@@ -209,6 +209,13 @@ static inline double nlc_scale_of(const nlc_network *n, int64_t particle)
     return n->scale[particle] * n->unit;
 }
 
+/* The model's displacements between two blocks, by the variant that there is. */
+static inline bool nlc_between(const nlc_network *n, nlc_block *a, nlc_block *b, const nlc_kernel *kernel)
+{
+    const nlc_model *model = n->settings.model;
+    return model->between == nlc_case_one_between && n->settings.variant ? n->settings.variant->between(a, b, kernel)
+                                                                         : model->between(a, b, kernel);
+}
 
 /* What an iteration leaves behind: the nonlocal displacement is in network->current. */
 typedef struct nlc_outcome {

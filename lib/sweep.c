@@ -70,7 +70,7 @@ static bool displace_in_blocks(nlc_network *n, nlc_response response, const doub
         for (int64_t q = once ? p + NLC_BLOCK : begin; q < end; q += NLC_BLOCK) {
             if (q == p) continue;
             gather(&b, n, response, force, normal, particle, q, block_end(q, end));
-            distinct &= model->between(&a, &b, kernel);
+            distinct &= nlc_between(n, &a, &b, kernel);
             if (once) add(&b, n, normal, q);
         }
         if (once) add(&a, n, normal, p);

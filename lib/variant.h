@@ -10,6 +10,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "model.h"
 #include "nlcontact.h"
 
 /* Compilers that can be told to use what not every processor has, function by function. */
@@ -42,6 +43,8 @@ typedef struct nlc_variant {
     void (*mark_above)(nlc_network *network, const double *root, const double *normal, double limit, int64_t first, int64_t end);
     /* directions.c: of count contacts from one on: residuals, 1/D and forces of the law; returns how many of them are done. */
     int (*residuals)(const nlc_iteration *q, int64_t from, int count, double *z, double *inverse, double *force, nlc_extremes *e);
+    /* nlc_case_one_between */
+    bool (*between)(nlc_block *a, nlc_block *b, const nlc_kernel *kernel);
 } nlc_variant;
 
 #ifdef NLC_HAVE_X86
