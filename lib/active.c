@@ -3,6 +3,7 @@
 #include "active.h"
 
 #include "contact.h"
+#include "crowd.h"
 
 #include <string.h>
 
@@ -194,6 +195,13 @@ static bool move_rest(nlc_network *n, const double *normal, int64_t k)
     int64_t target[NLC_BLOCK], source[NLC_BLOCK], p = n->start[k];
     nlc_block a, b;
     bool distinct = true;
+    if (nlc_is_crowd(n, k) && nlc_displace_crowd(n, NLC_OF_FORCES, n->force, normal, k, &distinct)) {
+        for (; p < n->start[k + 1]; p++) {
+            const int64_t e = n->entry[p];
+            if (!(n->force[e >> 1] > 0)) n->current[e >> 1] += n->weakening[k] * n->side[e];
+        }
+        return distinct;
+    }
     for (take(&b, target, n, normal, k, &p, false); b.count > 0; take(&b, target, n, normal, k, &p, false)) {
         int64_t q = n->start[k];
         for (take(&a, source, n, normal, k, &q, true); a.count > 0; take(&a, source, n, normal, k, &q, true))

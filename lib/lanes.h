@@ -27,6 +27,7 @@
  *     estimate: 1/sqrt(t) for 2^-101 < t < 2^15
  * The memory of load and store is aligned to whole vectors, that of loadu and storeu to doubles.
  */
+#include "crowd.h"
 #include "iteration.h"
 
 #define NEAR 0x1p-46  /* squared distance that is left to the portable code */
@@ -277,7 +278,7 @@ static int64_t displace_window(nlc_network *n, const double *force, const double
     }
     for (int q = count; q < all; q++) {
         const int64_t k = sorted[q];
-        if (!leave(n, force, normal, k) && (bad < 0 || k < bad)) bad = k;
+        if (!nlc_is_crowd(n, k) && !leave(n, force, normal, k) && (bad < 0 || k < bad)) bad = k;
     }
     return bad;
 }

@@ -71,6 +71,7 @@ const nlc_model nlc_models[] = {
                           .kept = 2,
                           .within = nlc_sphere_within,
                           .between = nlc_sphere_between,
+                          .tilt_between = nlc_sphere_tilt_between,
                           .coefficients = nlc_sphere_coefficients,
                           .squares = nlc_sphere_squares,
                           .turning = nlc_sphere_turning},

@@ -77,6 +77,8 @@ typedef struct nlc_model {
     /* Displacements in a block by its own forces, or in two blocks by each other's.  False: two directions are the same. */
     bool (*within)(nlc_block *a, const nlc_kernel *kernel);
     bool (*between)(nlc_block *a, nlc_block *b, const nlc_kernel *kernel);
+    /* What tilts add between blocks of which tilted is false and tilt is the tilt times the shape; NLC_SHAPE_MOMENTS. */
+    void (*tilt_between)(nlc_block *a, nlc_block *b, const nlc_kernel *kernel);
     /*
      * The tangent's coefficients of contact c with those before it; sum of their squares over all pairs, times both forces.
      * In a model without potential those of Case I, which decide how far to weaken it.
@@ -120,6 +122,7 @@ void nlc_sphere_model_prepare(nlc_kernel *kernel, double poisson, double prefact
 nlc_self nlc_sphere_model_self(const nlc_kernel *kernel, double circle2, double tilt);
 bool nlc_sphere_within(nlc_block *a, const nlc_kernel *kernel);
 bool nlc_sphere_between(nlc_block *a, nlc_block *b, const nlc_kernel *kernel);
+void nlc_sphere_tilt_between(nlc_block *a, nlc_block *b, const nlc_kernel *kernel);
 void nlc_sphere_coefficients(double *coefficient, const nlc_block *a, int c, const nlc_kernel *kernel);
 double nlc_sphere_squares(nlc_block *a, const nlc_kernel *kernel);
 double nlc_sphere_turning(const nlc_kernel *kernel, double t, double moment, double tilted);

@@ -76,20 +76,34 @@ static double squared(const nlc_block *a, int c, const nlc_block *b, int d)
 
 /*
  * What is added where tractions are tilted: D is D(1) + (chi - 1) E, E = D(1) - D(0), with the source's chi in v and the receiver's
- * in w, which is therefore left in two parts, sum P_d D(1) in second and sum P_d E in third.
+ * in w, which is therefore left in two parts, sum P_d D(1) in second and sum P_d E in third.  moment: shape times tilt, of c and of
+ * all of b.
  */
-static void add_tilted(nlc_block *a, int c, nlc_block *b, int count, const nlc_kernel *kernel)
+static void add_tilted_moments(nlc_block *a, int c, nlc_block *b, int count, double own, const double *moment,
+                               const nlc_kernel *kernel)
 {
     double e[NLC_BLOCK], v = 0, w = 0;
     for (int d = 0; d < count; d++) e[d] = nlc_sphere_tilt_at(squared(a, c, b, d), &kernel->tilted);
     for (int d = 0; d < count; d++) {
-        b->displacement[d] -= e[d] * a->shape[c] * a->tilt[c];
+        b->displacement[d] -= e[d] * own;
         b->third[d] += e[d] * a->force[c];
-        v += e[d] * b->shape[d] * b->tilt[d];
+        v += e[d] * moment[d];
         w += e[d] * b->force[d];
     }
     a->displacement[c] -= v;
     a->third[c] += w;
+}
+
+static void add_tilted(nlc_block *a, int c, nlc_block *b, int count, const nlc_kernel *kernel)
+{
+    double moment[NLC_BLOCK];
+    for (int d = 0; d < count; d++) moment[d] = b->shape[d] * b->tilt[d];
+    add_tilted_moments(a, c, b, count, a->shape[c] * a->tilt[c], moment, kernel);
+}
+
+void nlc_sphere_tilt_between(nlc_block *a, nlc_block *b, const nlc_kernel *kernel)
+{
+    for (int c = 0; c < a->count; c++) add_tilted_moments(a, c, b, b->count, a->tilt[c], b->tilt, kernel);
 }
 
 bool nlc_sphere_within(nlc_block *a, const nlc_kernel *kernel)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "collective.h"
+#include "crowd.h"
 #include "parallel.h"
 #include "structs.h"
 #include "tree.h"
@@ -100,6 +101,8 @@ static bool displace_particle(nlc_network *n, nlc_response response, const doubl
     double largest = 0;
     if (!model->within || n->scale[particle] == 0) {
         for (int64_t p = begin; p < end; p++) n->side[n->entry[p]] = 0;
+        largest = largest_force(n, force, begin, end);
+    } else if (nlc_is_crowd(n, particle) && nlc_displace_crowd(n, response, force, normal, particle, &distinct)) {
         largest = largest_force(n, force, begin, end);
     } else if (end - begin > NLC_BLOCK) {
         distinct = displace_in_blocks(n, response, force, normal, particle, &largest);
@@ -222,6 +225,7 @@ static int64_t displace_window(const job *s, int64_t first, int64_t end)
     for (int64_t k = first; k < end; k++) {
         const int64_t wanted = per_pair * pairs_on(n, k);
         const bool fits = wanted > 0 && at + wanted <= room;
+        if (nlc_is_crowd(n, k)) continue;
         if (!displace_particle(n, s->response, s->force, s->normal, k, fits ? n->settings.cache + at : NULL, fits && n->cached)) return k;
         at += wanted;
     }
@@ -241,6 +245,17 @@ static void displace_task(void *work, int64_t w)
     s->n->piece[w].bad = variant ? variant->displace(s->n, s->force, s->weighed, s->normal, first, end) : displace_window(s, first, end);
 }
 
+/* The particles that windows leave out, one by one: there is room for one tree.  The first with two equal directions, or -1. */
+static int64_t displace_crowds(nlc_network *n, nlc_response response, const double *force, const double *normal, bool weighed)
+{
+    for (int64_t k = 0; k < n->owned && n->most_contacts >= NLC_TREE_FROM; k++) {
+        if (!nlc_is_crowd(n, k)) continue;
+        if (weighed) n->norm[k] = INFINITY;
+        if (!displace_particle(n, response, force, normal, k, NULL, false)) return k;
+    }
+    return -1;
+}
+
 static nlc_status displace(nlc_network *n, nlc_response response, const double *force, const double *weighed, const double *normal,
                            int64_t *culprit)
 {
@@ -251,6 +266,7 @@ static nlc_status displace(nlc_network *n, nlc_response response, const double *
     if (!n->cached) lay_out_cache(n);
     nlc_for(n, displace_task, &all, nlc_windows(n));
     for (int64_t w = 0; w < nlc_windows(n) && bad < 0; w++) bad = n->piece[w].bad;
+    if (bad < 0) bad = displace_crowds(n, response, force, normal, weighed != NULL);
     n->cached = bad < 0;
     if (bad >= 0) *culprit = nlc_find_coincident(n, normal, bad);
     return bad >= 0 ? NLC_ERROR_COINCIDENT : NLC_OK;
