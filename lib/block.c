@@ -2,6 +2,7 @@
 /* block.c - one particle's block: bounds and the largest eigenvalue. */
 #include "block.h"
 
+#include "bound.h"
 #include "contact.h"
 
 #include <string.h>
@@ -154,7 +155,8 @@ static double scattered(const double *v, double out)
     return (double)(h >> 11) * 0x1p-52 - 1;
 }
 
-static double lanczos(nlc_network *n, const double *normal, int64_t k)
+/* How far below low or above high it is nobody wants to know. */
+static double lanczos(nlc_network *n, const double *normal, int64_t k, double low, double high)
 {
     double a[LANCZOS_MAX], b[LANCZOS_MAX], *v = n->lanczos[0], *w = n->lanczos[1], *in = n->lanczos[2], norm = 0, upper = 0;
     EACH_CONTACT(e)
@@ -182,6 +184,7 @@ static double lanczos(nlc_network *n, const double *normal, int64_t k)
         b[m] = sqrt(rest);
         const double theta = nlc_largest_tridiagonal(a, b, m + 1), residual = b[m] * last_component(a, b, m + 1, theta);
         upper = theta + residual;
+        if (theta > high || (m >= LANCZOS_MIN && upper <= low)) break; /* a Ritz value is a lower bound */
         if ((m >= LANCZOS_MIN && residual < LANCZOS_GOOD * fabs(1 - theta)) || b[m] <= 1e-12 * fabs(theta)) break;
         EACH_CONTACT(e)
         {
@@ -193,11 +196,11 @@ static double lanczos(nlc_network *n, const double *normal, int64_t k)
 }
 
 /* In a model without a potential the coefficients of Case I decide, here too: its own are not symmetric. */
-static double estimate(nlc_network *n, const double *normal, int64_t k)
+static double estimate(nlc_network *n, const double *normal, int64_t k, double low, double high)
 {
     const nlc_model *model = n->settings.model;
     if (!model->potential) n->settings.model = &nlc_half_space_undeformed;
-    const double upper = lanczos(n, normal, k);
+    const double upper = lanczos(n, normal, k, low, high);
     n->settings.model = model;
     return upper;
 }
@@ -206,13 +209,13 @@ bool nlc_block_is_below(nlc_network *n, const double *normal, int64_t particle, 
 {
     double B[NLC_BLOCK * NLC_BLOCK];
     const int rows = dense(B, n, normal, particle);
-    return rows < 0 ? estimate(n, normal, particle) <= beta : nlc_is_below(B, rows, beta);
+    return rows < 0 ? estimate(n, normal, particle, beta, beta) <= beta : nlc_is_below(B, rows, beta);
 }
 
 double nlc_block_eigenvalue(nlc_network *n, const double *normal, int64_t particle)
 {
     double B[NLC_BLOCK * NLC_BLOCK], work[4 * NLC_BLOCK];
     const int rows = dense(B, n, normal, particle);
-    if (rows < 0) return estimate(n, normal, particle);
+    if (rows < 0) return estimate(n, normal, particle, NLC_BOUND_FLOOR, INFINITY);
     return rows > 0 ? nlc_largest_eigenvalue(B, rows, work) : 0;
 }

@@ -12,6 +12,7 @@
 #define PASSES 30
 #define TOP 4.0   /* no overlap is larger, in the units of an iteration */
 #define LEVELS 24 /* of overlaps, each half of the one before */
+#define MOST 1000 /* contacts of a particle: a pass costs their square, and without it the solver needs a few sweeps more */
 #define ENOUGH 0.1 /* largest change of a force in a pass, relative to the largest force there is */
 
 static void put(nlc_block *b, const double *normal, int64_t e, double force)
@@ -45,13 +46,18 @@ static void spread(nlc_iteration *q, int64_t e, int64_t particle, double change)
     }
 }
 
-/* Gives a contact a force; returns by how much it changed. */
+static bool is_crowded(const nlc_network *n, int64_t body)
+{
+    return body < n->particle_count && n->start[body + 1] - n->start[body] > MOST;
+}
+
+/* Gives a contact a force; returns by how much it changed.  On crowded particles forces stay what they are. */
 static double give(nlc_iteration *q, int64_t c, double force)
 {
     nlc_network *n = q->n;
     const double change = force - n->force[c];
     const int first = n->i[c] < n->j[c] ? 0 : 1; /* whichever side is called i */
-    if (nlc_abs_bits(change) == 0) return 0;
+    if (nlc_abs_bits(change) == 0 || is_crowded(n, n->i[c]) || is_crowded(n, n->j[c])) return 0;
     n->force[c] = force;
     for (int k = 0; k < 2; k++) {
         const int side = k == 0 ? first : 1 - first;
@@ -69,7 +75,8 @@ static void begin_anew(nlc_iteration *q)
     /* what is spread are point forces: where contacts have a size, what is there has other parts, and all begin anew */
     const bool all = !nlc_is_linear(n->settings.model->shape);
     for (int64_t c = 0; c < n->contact_count; c++) repelled[c] = all || n->current[c] < -NLC_REPELLED * nlc_overlap_nearby(q, c);
-    for (int64_t c = 0; c < n->contact_count && all; c++) n->force[c] = n->current[c] = 0;
+    for (int64_t c = 0; c < n->contact_count && all; c++)
+        if (!is_crowded(n, n->i[c]) && !is_crowded(n, n->j[c])) n->force[c] = n->current[c] = 0;
     for (int64_t c = 0; c < n->contact_count; c++)
         if (repelled[c] > 0) give(q, c, 0);
     for (int level = 0; level < LEVELS; level++)
