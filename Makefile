@@ -61,7 +61,7 @@ PC := $(B)/nlcontact.pc
 CMAKE := $(B)/nlcontact-config.cmake $(B)/nlcontact-config-version.cmake
 MAN := $(sort $(wildcard $(S)/man/*.[37]))
 
-.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist deb distcheck clean hydrogel hydrogel-runs bench-large plots setup-plots record-instructions setup-examples FORCE
+.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist deb distcheck clean hydrogel hydrogel-runs bench-large plots setup-plots record-instructions setup-examples coordination FORCE
 all: lib packing ## build the libraries and the packing program
 lib: $(STATIC) $(SHARED) ## build the static and the shared library
 
@@ -99,7 +99,7 @@ $(B)/%.cmake: $(S)/%.cmake.in FORCE
 # ---- programs on a packing, and on single spheres
 BENCH_SRC := $(sort $(wildcard $(S)/bench/*.c))
 BENCH_MAIN := $(filter %/packing.c %/bench.c %/steps.c %/roofline.c %/accuracy.c \
-	%/functions.c %/tradeoff.c %/scale.c %/instructions.c,$(BENCH_SRC))
+	%/coordination.c %/functions.c %/tradeoff.c %/scale.c %/instructions.c,$(BENCH_SRC))
 BENCH_COMMON := $(patsubst $(S)/%.c,$(B)/%.o,$(filter-out $(BENCH_MAIN),$(BENCH_SRC)))
 
 $(B)/bench/%.o: $(S)/bench/%.c
@@ -137,6 +137,8 @@ plots: ## pictures of what make bench and bench-large have found, in build/plots
 		$(S)/bench/plots/$$p.gp && echo $(PLOTS)/$$p.png || exit 1; done
 record-instructions: $(B)/bench/instructions ## count the instructions of every function anew, for the test that compares them (valgrind)
 	@sh $(S)/bench/count_instructions $(STATIC) $< >$(B)/instructions.csv && mv $(B)/instructions.csv $(S)/tests/instructions.csv
+coordination: $(B)/bench/coordination ## one sphere with ever more others on it: time beside that of all pairs
+	@$(B)/bench/coordination
 REFERENCES = $(filter-out %/hertz_pressure.csv,$(foreach d,reference fe,$(sort $(wildcard $(S)/bench/data/$(d)/*.csv))))
 accuracy: $(B)/bench/accuracy ## the models' forces beside exact elasticity and finite elements, and their cost: tables, charts
 	@$(B)/bench/accuracy --csv $(B)/accuracy.csv --svg $(B)/accuracy.svg --packing $(PACKING) --cost $(B)/accuracy_cost.svg \
