@@ -38,14 +38,15 @@ double nlc_circle2(const nlc_network *n, int64_t e, int64_t particle)
     return circle2(n, e, particle, nlc_length_of(n, particle));
 }
 
-void nlc_set_shape(nlc_block *b, int d, const nlc_network *n, nlc_response response, int64_t e, int64_t particle)
+void nlc_set_shape(nlc_block *b, int d, const nlc_network *n, nlc_response response, int64_t e, int64_t particle,
+                   double length)
 {
     const nlc_shape shape = n->settings.model->shape;
     if (shape == NLC_SHAPE_POINT || shape == NLC_SHAPE_PLACE) {
         b->shape[d] = shape == NLC_SHAPE_PLACE ? n->own[e] : 0;
         return;
     }
-    const double t2 = nlc_circle2(n, e, particle);
+    const double t2 = circle2(n, e, particle, length);
     if (shape == NLC_SHAPE_RADIUS) {
         b->shape[d] = sqrt(t2);
         return;
@@ -87,10 +88,10 @@ static double own_slope(const nlc_network *n, int64_t e, int64_t particle, doubl
     return slope > STEEPEST ? -STEEPEST : slope < -STEEPEST ? STEEPEST : -slope;
 }
 
-void nlc_add_self(nlc_network *n, nlc_response response, const double *force, int64_t e, int64_t particle, double tilt,
-                  double second, double third)
+void nlc_add_self(nlc_network *n, nlc_response response, const double *force, int64_t e, int64_t particle, double length,
+                  double tilt, double second, double third)
 {
-    const double length = nlc_length_of(n, particle), U = nlc_scale_of(n, particle);
+    const double U = nlc_scale_of(n, particle);
     const double t2 = circle2(n, e, particle, length), moment = t2 * (second + tilt * third);
     if (response == NLC_OF_CHANGES) {
         n->side[e] += -moment / 6 + n->own[e] * force[e >> 1];

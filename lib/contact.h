@@ -62,21 +62,22 @@ void nlc_set_places(nlc_network *network, const double *side, const double *over
 /* Parts of the displacements in network->current that the two sides have, to begin with: as they yield. */
 void nlc_split_sides(const nlc_network *network, double *side);
 
-/* The shape and the tilt of a side that is number d of a block; its force is there. */
-void nlc_set_shape(nlc_block *block, int d, const nlc_network *network, nlc_response response, int64_t side, int64_t particle);
+/* The shape and the tilt of a side that is number d of a block; its force is there.  length: nlc_length_of the particle. */
+void nlc_set_shape(nlc_block *block, int d, const nlc_network *network, nlc_response response, int64_t side, int64_t particle,
+                   double length);
 
 /* A side as number d of a block, with all that the model looks at.  block->tilted is only set. */
 static inline void nlc_put_side(nlc_block *b, int d, const nlc_network *n, nlc_response response, const double *force,
-                                const double *normal, int64_t e, int64_t particle)
+                                const double *normal, int64_t e, int64_t particle, double length)
 {
     nlc_set_direction(b, d, normal, e);
     b->force[d] = nlc_scale_of(n, particle) * force[e >> 1];
     b->displacement[d] = b->second[d] = b->third[d] = 0;
-    if (n->settings.model->shape != NLC_SHAPE_NONE) nlc_set_shape(b, d, n, response, e, particle);
+    if (n->settings.model->shape != NLC_SHAPE_NONE) nlc_set_shape(b, d, n, response, e, particle, length);
 }
 
 /* Adds to network->side what the second and third sum of a side and its contact's own force make. */
-void nlc_add_self(nlc_network *network, nlc_response response, const double *force, int64_t side, int64_t particle, double tilt,
-                  double second, double third);
+void nlc_add_self(nlc_network *network, nlc_response response, const double *force, int64_t side, int64_t particle, double length,
+                  double tilt, double second, double third);
 
 #endif

@@ -139,6 +139,7 @@ void nlc_begin_crowd(nlc_crowd *w)
 void nlc_end_crowd(nlc_crowd *w)
 {
     const nlc_tree *t = &w->tree;
+    const double length = nlc_length_of(w->n, t->particle);
     const int64_t count = w->n->start[t->particle + 1] - w->n->start[t->particle];
     for (const nlc_box *box = t->box; box < t->box + t->count; box++) {
         if (!nlc_has_grid(w, box)) continue;
@@ -150,6 +151,6 @@ void nlc_end_crowd(nlc_crowd *w)
         const double *sum = nlc_sums_at(w, q);
         w->n->side[e] = sum[0];
         if (w->channels > 1)
-            nlc_add_self(w->n, w->response, w->force, e, t->particle, nlc_tilt(w->n, e, t->particle), sum[1], sum[2]);
+            nlc_add_self(w->n, w->response, w->force, e, t->particle, length, nlc_tilt(w->n, e, t->particle), sum[1], sum[2]);
     }
 }

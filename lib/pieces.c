@@ -10,11 +10,12 @@ static int least(int64_t left)
 
 void nlc_take_contacts(nlc_block *b, const nlc_crowd *w, const nlc_box *box, int64_t from)
 {
+    const double length = nlc_length_of(w->n, w->tree.particle);
     b->count = least(nlc_box_size(box) - from);
     b->tilted = false;
     for (int d = 0; d < b->count; d++) {
         const int64_t e = nlc_ordered_side(&w->tree, box->begin + from + d);
-        nlc_put_side(b, d, w->n, w->response, w->force, w->tree.normal, e, w->tree.particle);
+        nlc_put_side(b, d, w->n, w->response, w->force, w->tree.normal, e, w->tree.particle, length);
     }
 }
 

@@ -79,7 +79,7 @@ static double squared(const nlc_block *a, int c, const nlc_block *b, int d)
  * in w, which is therefore left in two parts, sum P_d D(1) in second and sum P_d E in third.  moment: shape times tilt, of c and of
  * all of b.
  */
-static void add_tilted_moments(nlc_block *a, int c, nlc_block *b, int count, double own, const double *moment,
+static void add_tilted_moments(nlc_block *a, int c, nlc_block *b, int count, double own, const double *restrict moment,
                                const nlc_kernel *kernel)
 {
     double e[NLC_BLOCK], v = 0, w = 0;

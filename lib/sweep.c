@@ -15,12 +15,13 @@
 static double gather(nlc_block *b, const nlc_network *n, nlc_response response, const double *force, const double *normal,
                      int64_t particle, int64_t begin, int64_t end)
 {
+    const double length = nlc_length_of(n, particle);
     double largest = 0;
     b->tilted = false;
     b->count = (int)(end - begin);
     for (int d = 0; d < b->count; d++) {
         const int64_t e = nlc_side_at(n, normal, begin + d);
-        nlc_put_side(b, d, n, response, force, normal, e, particle);
+        nlc_put_side(b, d, n, response, force, normal, e, particle, length);
         const double p = fabs(force[e >> 1]);
         largest = p > largest ? p : largest;
     }
@@ -31,10 +32,11 @@ static double gather(nlc_block *b, const nlc_network *n, nlc_response response, 
 static void store(const nlc_block *a, nlc_network *n, nlc_response response, const double *force, const double *normal,
                   int64_t particle, int64_t begin)
 {
+    const double length = nlc_length_of(n, particle);
     for (int d = 0; d < a->count; d++) {
         const int64_t e = nlc_side_at(n, normal, begin + d);
         n->side[e] = a->displacement[d];
-        if (n->settings.model->self) nlc_add_self(n, response, force, e, particle, a->tilt[d], a->second[d], a->third[d]);
+        if (n->settings.model->self) nlc_add_self(n, response, force, e, particle, length, a->tilt[d], a->second[d], a->third[d]);
     }
 }
 
