@@ -34,7 +34,7 @@ TARGET static int residuals(const nlc_iteration *q, int64_t from, int count, dou
         const vec above = mul(k, add(add(mul(sb, sb), mul(sb, a)), mul(a, a)));
         storeu(force + c, h);
         storeu(z + c, sub(h, f));
-        storeu(inverse + c, div(below, max(above, mul(loadu(floor + c), below))));
+        storeu(inverse + c, div(below, add(max(above, mul(loadu(floor + c), below)), set(1e-307))));
         residual = max(residual, magnitude(sub(h, f)));
         top = max(top, h);
         far = max(far, max(sub(set(0), f), sub(f, mul(set(NLC_FAR), h))));
