@@ -241,7 +241,7 @@ abi-dump: $(SHARED)
 	abidw $(ABIDW_FLAGS) $(SHARED) > $(B)/libnlcontact.abi
 
 # ---- fuzzing: with FUZZ_MAIN= and -fsanitize=fuzzer these are libFuzzer's, as they are here they replay files
-.PHONY: fuzz fuzz-programs
+.PHONY: fuzz fuzz-programs analyse
 FUZZ := $(patsubst $(S)/%.c,$(B)/%,$(sort $(wildcard $(S)/tests/fuzz/fuzz_*.c)))
 FUZZ_MAIN ?= $(B)/tests/fuzz/main.o
 $(B)/tests/fuzz/fuzz_%: $(B)/tests/fuzz/fuzz_%.o $(B)/tests/fuzz/fuzz.o $(FUZZ_MAIN) $(BENCH_COMMON) $(STATIC)
@@ -250,6 +250,8 @@ fuzz-programs: $(FUZZ)
 check: $(FUZZ)
 fuzz: ## look for inputs that the library cannot stand, a minute; FUZZ_RUNS=1e7 inputs for each program
 	@S='$(abspath $(S))' B='$(abspath $(B))' MAKE='$(MAKE)' sh $(S)/tests/fuzz/run
+analyse: ## static analysers on the library: gcc -fanalyzer, clang-tidy, cppcheck, as far as they are here
+	@python3 $(S)/tests/analyse.py
 -include $(wildcard $(B)/tests/fuzz/*.d)
 
 stress: $(B)/tests/test_stress ## the solver on its whole grid of scenes, with a table; a few minutes
