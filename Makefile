@@ -241,7 +241,7 @@ abi-dump: $(SHARED)
 	abidw $(ABIDW_FLAGS) $(SHARED) > $(B)/libnlcontact.abi
 
 # ---- fuzzing: with FUZZ_MAIN= and -fsanitize=fuzzer these are libFuzzer's, as they are here they replay files
-.PHONY: fuzz fuzz-programs analyse
+.PHONY: fuzz fuzz-programs analyse platforms mutants audit
 FUZZ := $(patsubst $(S)/%.c,$(B)/%,$(sort $(wildcard $(S)/tests/fuzz/fuzz_*.c)))
 FUZZ_MAIN ?= $(B)/tests/fuzz/main.o
 $(B)/tests/fuzz/fuzz_%: $(B)/tests/fuzz/fuzz_%.o $(B)/tests/fuzz/fuzz.o $(FUZZ_MAIN) $(BENCH_COMMON) $(STATIC)
@@ -252,6 +252,12 @@ fuzz: ## look for inputs that the library cannot stand, a minute; FUZZ_RUNS=1e7 
 	@S='$(abspath $(S))' B='$(abspath $(B))' MAKE='$(MAKE)' sh $(S)/tests/fuzz/run
 analyse: ## static analysers on the library: gcc -fanalyzer, clang-tidy, cppcheck, as far as they are here
 	@python3 $(S)/tests/analyse.py
+platforms: ## the quick tests with every compiler, processor and C library that is here; PLATFORMS="s390x musl" for some
+	@S='$(abspath $(S))' B='$(abspath $(B))' MAKE='$(MAKE)' sh $(S)/tests/platforms/run
+mutants: ## break the library in every place of tests/mutants, and see whether the tests notice: hours
+	@python3 $(S)/tests/mutate.py --work $(abspath $(B))/mutants
+audit: ## all of these with full counts, a day or so; what they find goes to audit/RESULTS
+	@S='$(abspath $(S))' B='$(abspath $(B))' MAKE='$(MAKE)' VERSION='$(VERSION)' sh $(S)/tests/audit
 -include $(wildcard $(B)/tests/fuzz/*.d)
 
 stress: $(B)/tests/test_stress ## the solver on its whole grid of scenes, with a table; a few minutes
@@ -288,7 +294,7 @@ uninstall: ## remove what install put there
 	rmdir $(DESTDIR)$(cmakedir) 2>/dev/null || :
 
 DISTNAME := nlcontact-$(VERSION)
-DIST_FILES = Makefile README NEWS CONTRIBUTING SECURITY COPYING CITATION.cff nlcontact.pc.in nlcontact-config.cmake.in \
+DIST_FILES = Makefile README NEWS CONTRIBUTING SECURITY COPYING CITATION.cff nlcontact.pc.in nlcontact-config.cmake.in .clang-tidy \
 	nlcontact-config-version.cmake.in include lib tests bench man tools examples packaging
 RELEASED := $(shell sed -n 's/^date-released: *//p' $(S)/CITATION.cff)
 dist: ## make a source archive, the same bytes every time

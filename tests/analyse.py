@@ -19,7 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 FLAGS = ["-std=c11", "-Iinclude", "-iquote", "lib", "-Ibench", "-D_GNU_SOURCE"]
 COMMANDS = {
     "gcc": lambda f: ["gcc", *FLAGS, "-O2", "-Wall", "-Wextra", "-fanalyzer", "-c", f, "-o", "/dev/null"],
-    "clang-tidy": lambda f: ["clang-tidy", "--quiet", f, "--", *FLAGS],
+    "clang-tidy": lambda f: ["clang-tidy", "--quiet", "--config-file=.clang-tidy", f, "--", *FLAGS],
     "cppcheck": lambda f: ["cppcheck", "-q", "--std=c11", "--enable=warning,performance,portability", "-Iinclude", "-Ilib", "-Ibench",
                            "--template={file}:{line}:{column}: {severity}: {message} [{id}]", f],
 }
