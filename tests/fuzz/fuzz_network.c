@@ -57,6 +57,22 @@ static void backwards(void *context, void (*task)(void *, int64_t), void *work, 
 
 static int64_t calls;
 
+/* A rank that is alone: nothing to exchange, and its own sums. */
+static int exchange(void *context, double *side)
+{
+    (void)side;
+    ++*(int64_t *)context;
+    return 0;
+}
+
+static int reduce(void *context, double *values, int32_t count, int32_t operation)
+{
+    demand(count > 0 && count < 1000 && (operation == NLC_REDUCE_SUM || operation == NLC_REDUCE_MAX), "what is to be reduced");
+    (void)values;
+    ++*(int64_t *)context;
+    return 0;
+}
+
 static void make_options(scene *s)
 {
     bytes *in = &s->in;
@@ -82,8 +98,9 @@ static void make_options(scene *s)
         o->cache = room(CACHE, o->cache_size, s->behind, (8 - o->cache_size % 8) % 8 * s->behind);
     }
     if (choice >> 7 & 1) o->parallel_for = backwards, o->parallel_context = &calls;
+    if (kind >= 252) o->exchange = exchange, o->reduce = reduce, o->context = &calls;
     if (take_bit(in, s->odd, ODD_OPTIONS)) {
-        switch (take(in, 1) % 8) {
+        switch (take(in, 1) % 10) { /* owned particles less than all need an exchange with others: alone they are all, or an error */
         case 0: o->model = (int32_t)take_integer(in); break;
         case 1: o->method = (int32_t)take_integer(in); break;
         case 2: o->tolerance = take_any(in); break;
@@ -91,6 +108,8 @@ static void make_options(scene *s)
         case 4: o->prefactor = take_any(in); break;
         case 5: o->simd = (int32_t)take_integer(in); break;
         case 6: o->points = (int32_t)take_integer(in); break;
+        case 7: o->owned_particles = take_integer(in), o->exchange = NULL, o->reduce = NULL; break;
+        case 8: o->reduce = reduce; break;
         default: o->cache = (void *)((uintptr_t)o->cache + (uintptr_t)take(in, 1) % 8);
         }
         if (o->max_sweeps > 4096) o->max_sweeps &= 4095; /* what does not converge would go on for ever */
@@ -250,7 +269,7 @@ static void look_at_info(const nlc_info *info, nlc_status status)
     NLC_ERROR_NULL, NLC_ERROR_NULL_FIELD, NLC_ERROR_STRUCT_SIZE, NLC_ERROR_RESERVED, NLC_ERROR_COUNT, NLC_ERROR_STRIDE,        \
         NLC_ERROR_MEMORY_SIZE, NLC_ERROR_ALIGNMENT, NLC_ERROR_MODEL, NLC_ERROR_METHOD, NLC_ERROR_OPTION, NLC_ERROR_RADIUS,     \
         NLC_ERROR_MATERIAL, NLC_ERROR_YOUNG, NLC_ERROR_POISSON, NLC_ERROR_INDEX, NLC_ERROR_WALL_WALL, NLC_ERROR_RIGID_RIGID,   \
-        NLC_ERROR_STIFFNESS, NLC_ERROR_RANGE
+        NLC_ERROR_STIFFNESS, NLC_ERROR_RANGE, NLC_ERROR_GHOST
 
 static bool build(scene *s)
 {
@@ -486,7 +505,7 @@ static void set_options(scene *s)
     nlc_info *info = make_info(s, INFO, &bad);
     const nlc_status status =
         CALL(nlc_set_options(s->network, s->options, info), 0, NETWORK_ERRORS, NLC_ERROR_RESERVED, NLC_ERROR_MODEL, NLC_ERROR_METHOD,
-             NLC_ERROR_OPTION, NLC_ERROR_ALIGNMENT, NLC_ERROR_STIFFNESS, NLC_ERROR_RANGE);
+             NLC_ERROR_OPTION, NLC_ERROR_ALIGNMENT, NLC_ERROR_STIFFNESS, NLC_ERROR_RANGE, NLC_ERROR_NULL_FIELD, NLC_ERROR_GHOST);
     look_at_info(info, status);
     if (status == NLC_OK) return;
     s->options = NULL;

@@ -23,6 +23,18 @@ static void backwards(void *context, void (*task)(void *, int64_t), void *work, 
     while (count-- > 0) task(work, count);
 }
 
+static int exchange(void *context, double *side)
+{
+    (void)context, (void)side;
+    return 0;
+}
+
+static int reduce(void *context, double *values, int32_t count, int32_t operation)
+{
+    (void)context, (void)values, (void)count, (void)operation;
+    return 0;
+}
+
 #define END(type, field) (offsetof(type, field) + sizeof(((type *)0)->field))
 static const size_t particles_ends[] = {
     END(nlc_particles, struct_size), END(nlc_particles, count), END(nlc_particles, radius), END(nlc_particles, radius_stride),
@@ -32,7 +44,10 @@ static const size_t options_ends[] = {
     END(nlc_options, struct_size), END(nlc_options, model), END(nlc_options, method), END(nlc_options, tolerance),
     END(nlc_options, max_sweeps), END(nlc_options, prefactor), END(nlc_options, simd), END(nlc_options, points),
     END(nlc_options, stiffness), END(nlc_options, cache), END(nlc_options, cache_size), END(nlc_options, parallel_for),
-    END(nlc_options, parallel_context), 0};
+    END(nlc_options, parallel_context), END(nlc_options, owned_particles), END(nlc_options, exchange), END(nlc_options, reduce),
+    END(nlc_options, context), 0};
+_Static_assert(END(nlc_particles, wall_count) == sizeof(nlc_particles) && END(nlc_options, context) == sizeof(nlc_options),
+               "fields that these lists do not have");
 
 static nlc_particles make_particles(bytes *in)
 {
@@ -68,6 +83,8 @@ static nlc_options make_options(bytes *in)
     if (flags & 1024) o.tolerance = take_any(in);
     if (flags & 2048) o.prefactor = take_any(in);
     if (flags & 4096) o.cache_size = 1;
+    if (flags & 8192) o.owned_particles = (int64_t)(flags >> 14) + 2; /* 4 is all, 5 too many, fewer need callbacks */
+    if (flags >> 13 == 6) o.exchange = exchange, o.reduce = reduce, o.context = cache;
     return o;
 }
 
