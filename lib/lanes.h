@@ -251,7 +251,7 @@ static keeping keep(const nlc_network *n, int64_t *at, int64_t places, bool weig
 {
     const int64_t room = n->settings.cache ? (int64_t)(n->settings.cache_size / sizeof(double)) : 0, begin = *at;
     *at += room_for(places);
-    if (*at > room) return (keeping){NULL, false};
+    if (!n->settings.cache || *at > room) return (keeping){NULL, false};
     return (keeping){n->settings.cache + begin, n->cached && !weighed};
 }
 
