@@ -510,7 +510,7 @@ static char *join_path(const char *path, size_t n, const char *tail)
     char *joined = malloc(n + strlen(tail) + 1);
     if (!joined) return NULL;
     memcpy(joined, path, n);
-    strcpy(joined + n, tail);
+    memcpy(joined + n, tail, strlen(tail) + 1);
     return joined;
 }
 
