@@ -156,6 +156,12 @@ static nlc_status run_assemble_sliding(void *context)
                                 s->sliding, s->displacement, s->n.overlap, 0.3, NULL);
 }
 
+static nlc_status run_assemble_turning(void *context)
+{
+    function_scene *s = context;
+    return nlc_assemble_turning(first_network(s), s->resultant, 0, s->force, s->n.overlap, normals(s), NULL);
+}
+
 static nlc_status run_pairs(void *context)
 {
     function_scene *s = context;
@@ -339,6 +345,7 @@ static void add_calls(function_scene *s, function_list *list)
         {"nlc_tangent_bound", run_tangent_bound, s},
         {"nlc_assemble", run_assemble, s},
         {"nlc_assemble_sliding", run_assemble_sliding, s},
+        {"nlc_assemble_turning", run_assemble_turning, s},
         {"nlc_contacts_from_pairs", run_pairs, s},
         {"nlc_contacts_from_lists", run_lists, s},
         {"nlc_reach", run_reach, s},

@@ -26,17 +26,18 @@ static double dot(const double *a, const double *b, int count)
  * Residuals z, and 1/D of the chord from the iterate to the force of the law, D = (Ph - P) / (y - (P/k)^(2/3)).  With s = y^(1/2) and
  * r = (P/k)^(1/3) that is k (s^2 + s r + r^2) / (s + r), without cancellation.  One Halley step from s finds
  * r = s (Ph + 2 P) / (2 Ph + P) where the two are close; elsewhere a cube root is taken.  All fractions, and the least D there may be,
- * are put on one line: a division costs most here.  Where stiffnesses are 1e150 apart both sizes below the line can be 0.
+ * are put on one line: a division costs most here.  Of what is open, and where stiffnesses are 1e150
+ * apart, nothing is left but the least D: NLC_LINE keeps both lines from 0, in hosts that flush subnormal numbers to 0, too.
  */
 static void residual(const nlc_iteration *q, int64_t c, double *z, double *inverse, double *force, nlc_extremes *extremes)
 {
     const double k = nlc_scaled_stiffness(q, c), y = nlc_scaled_overlap(q, c), iterate = q->n->force[c];
     const double s = sqrt(0.5 * (y + fabs(y))), h = k * s * s * s, p = 0.5 * (iterate + fabs(iterate));
     const double a = s * (h + 2 * p), b = 2 * h + p, sb = s * b;
-    const double below = (sb + a) * b + 1e-300, above = k * (sb * sb + sb * a + a * a), least = q->n->floor[c] * below;
+    const double below = (sb + a) * b + NLC_LINE, above = k * (sb * sb + sb * a + a * a), least = q->n->floor[c] * below;
     *force = h;
     *z = h - iterate;
-    *inverse = below / ((above > least ? above : least) + 1e-307);
+    *inverse = below / (above > least ? above : least);
     extremes->residual = fabs(*z) > extremes->residual ? fabs(*z) : extremes->residual;
     extremes->force = h > extremes->force ? h : extremes->force;
     extremes->far |= iterate < 0 || iterate > NLC_FAR * h;

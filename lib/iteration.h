@@ -62,6 +62,7 @@ struct nlc_extremes {
     bool far;
 };
 #define NLC_FAR 8
+#define NLC_LINE 1e-130 /* times the least slope there may be, some 1e-158, is far from the end of double */
 
 /* directions.c: residual z of [GC] 10 into direction[0], its largest, and M: here, on this rank. */
 void nlc_evaluate(nlc_iteration *q);

@@ -91,6 +91,4 @@ static void mark_above(nlc_network *n, const double *root, const double *normal,
         find_pivots(&A, &g, limit);
         for (int l = 0; l < LANES; l++) n->changed[g.particle[l]] = !(g.squares[l] > ROUNDED * limit && g.closest[l] >= NEAR);
     }
-    for (int q = 0; q < count; q++)
-        if (n->start[sorted[q] + 1] == n->start[sorted[q]]) n->changed[sorted[q]] = 0;
 }

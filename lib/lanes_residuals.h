@@ -30,11 +30,11 @@ TARGET static int residuals(const nlc_iteration *q, int64_t from, int count, dou
         const vec y = min(add(mul(loadu(overlap + c), set(q->load)), loadu(current + c)), set(NLC_FARTHEST));
         const vec s = root(positive(y)), h = mul(mul(mul(k, s), s), s), f = loadu(iterate + c), p = positive(f);
         const vec a = mul(s, add(h, mul(set(2), p))), b = add(mul(set(2), h), p), sb = mul(s, b);
-        const vec below = add(mul(add(sb, a), b), set(1e-300));
+        const vec below = add(mul(add(sb, a), b), set(NLC_LINE));
         const vec above = mul(k, add(add(mul(sb, sb), mul(sb, a)), mul(a, a)));
         storeu(force + c, h);
         storeu(z + c, sub(h, f));
-        storeu(inverse + c, div(below, add(max(above, mul(loadu(floor + c), below)), set(1e-307))));
+        storeu(inverse + c, div(below, max(above, mul(loadu(floor + c), below))));
         residual = max(residual, magnitude(sub(h, f)));
         top = max(top, h);
         far = max(far, max(sub(set(0), f), sub(f, mul(set(NLC_FAR), h))));

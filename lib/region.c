@@ -126,12 +126,13 @@ void nlc_settle_region(nlc_network *n, const double *overlap, const double *norm
     if ((double)count > REGION * (double)n->contact_count) return;
     nlc_build_part(n, n->origin, count, overlap, normal);
     n->part->settings.max_sweeps -= out->info.sweeps;
-    if (n->part->settings.max_sweeps <= 0 || !hold_the_rest(n)) return;
+    if (n->part->settings.max_sweeps <= 0) return;
+    n->swept = false; /* what the part finds is written where the sweep was */
+    if (!hold_the_rest(n)) return;
     nlc_galerkin(n->part, n->part_overlap, n->part_normal, &part);
     out->info.blocks += part.info.blocks;
     if (part.status < 0) return;
     out->info.settled = count;
-    n->swept = false;
     for (int64_t c = 0; c < n->contact_count; c++) n->current[c] = swept(n, c);
     for (int64_t m = 0; m < count; m++) {
         const int64_t c = n->origin[m];

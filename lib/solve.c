@@ -150,7 +150,7 @@ static void solve_cluster(nlc_network *n, const int64_t *origin, int64_t count, 
 /* Each cluster of contacts that may have a force, until it turns out that no other contact has. */
 static void by_clusters(nlc_network *n, const double *overlap, const double *normal, const double *nonlocal, nlc_outcome *out)
 {
-    int64_t before = 0;
+    int64_t before = out->info.sweeps;
     for (int64_t more = 1; more > 0;) {
         const int64_t blocks = out->info.blocks;
         *out = (nlc_outcome){NLC_OK, nlc_new_info()};

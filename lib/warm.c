@@ -23,7 +23,8 @@ static bool may_do(const nlc_network *n, const double *overlap, const double *no
     const double largest = shared ? n->ranks.nonlocal : nlc_largest_magnitude(nonlocal, n->contact_count);
     *active = n->contact_count;
     if (!n->settings.model->potential || !nlc_is_linear(n->settings.model->shape) || largest <= 0) return false;
-    if (largest / LARGEST > (shared ? n->ranks.overlap : nlc_largest_magnitude(overlap, n->contact_count))) return false;
+    if (n->settings.max_sweeps < 2 && !shared) return false; /* that one is needed elsewhere */
+    if (largest > LARGEST * (shared ? n->ranks.overlap : nlc_largest_magnitude(overlap, n->contact_count))) return false;
     if (shared || !n->connected) return shared; /* ranks leave nothing out */
     *active = 0;
     for (int64_t c = 0; c < n->contact_count; c++) *active += overlap[c] + nonlocal[c] > 0;
@@ -154,8 +155,13 @@ bool nlc_is_solved(nlc_network *n, const double *overlap, const double *normal, 
     nlc_iteration_units(&q, n, overlap, normal, 1);
     start(&q, nonlocal);
     out->info.sweeps++;
-    out->status = nlc_displace_weighed(n, normal, &out->info.culprit);
-    if (out->status != NLC_OK) return true;
+    const nlc_status status = nlc_displace_weighed(n, normal, &out->info.culprit);
+    if (status != NLC_OK && !nlc_is_shared(n)) { /* it may be where nothing has to be looked at */
+        out->info.culprit = -1;
+        return false;
+    }
+    out->status = status;
+    if (status != NLC_OK) return true;
     nlc_exchange_particles(n, n->largest);
     result r = look(&q, nonlocal);
     if (r.lost && !nlc_is_shared(n)) return false;

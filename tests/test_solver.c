@@ -220,6 +220,56 @@ END_TEST
 static const int simds[] = {NLC_SIMD_GENERIC, NLC_SIMD_BEST};
 
 /*
+ * Six balls in a row: the first two are squeezed, the last has candidates far from everything, two of them in one direction.  They
+ * are never looked at, whatever the start, and no more sweeps are done than are said.
+ */
+START_TEST(idle_candidates_in_one_place)
+{
+    static const int i[] = {0, 0, 0, 1, 0, 1, 1, 0, 1, 2, 3, 4, 5, 5, 5, 5, 5}, j[] = {6, 7, 8, 6, 1, 2, 7, 9, 8, 3, 4, 5, 6, 7, 8, 9, 6};
+    static const int n[][3] = {{-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 1, 0}, {1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, 1},
+                               {1, 0, 0},  {1, 0, 0}, {1, 0, 0},  {0, 0, 1}, {0, 0, 1}, {0, 1, 0}, {0, -1, 0}, {0, 0, -1}};
+    scene s;
+    nlc_info info = {.struct_size = sizeof info};
+    scene_init(&s);
+    const int32_t m = scene_material(&s, 1e9, 0.3);
+    for (int k = 0; k < 6; k++) scene_particle(&s, 1, m);
+    for (int k = 0; k < 4; k++) scene_wall(&s, m);
+    for (int c = 0; c < 17; c++) scene_contact(&s, i[c], j[c], c < 9 ? 0.02 : -0.3, n[c][0], n[c][1], n[c][2]);
+    ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+    for (int k = 0; k < 3; k++) {
+        ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+        ck_assert_int_eq(info.culprit, -1);
+    }
+    s.options.max_sweeps = 1;
+    ck_assert_int_eq(nlc_set_options(s.network, &s.options, NULL), NLC_OK);
+    ck_assert_int_ge(scene_solve(&s, &info), NLC_OK);
+    ck_assert_int_eq(info.sweeps, 1);
+    scene_free(&s);
+}
+END_TEST
+
+/* A ball between three walls, one of them open and 1e-5 to 1e-150 as stiff as the others: as many sweeps as without it, and no trap. */
+START_TEST(soft_and_open)
+{
+    for (double ratio = 1; ratio > 1e-150; ratio *= 1e-5) {
+        double stiffness[3] = {1e9, 1e9, 1e9 * ratio};
+        scene s;
+        nlc_info info = {.struct_size = sizeof info};
+        scene_init(&s);
+        s.options.stiffness = stiffness;
+        s.options.simd = simds[_i];
+        const int32_t m = scene_material(&s, 1e9, 0.3), p = scene_particle(&s, 1, m);
+        for (int k = 0; k < 3; k++) scene_contact(&s, p, 1 + scene_wall(&s, m), k < 2 ? 0.02 : -1e-3, k == 0, k == 1, k == 2);
+        nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, &info), NLC_OK));
+        ck_assert_int_le(info.sweeps, 3);
+        nlc_assert_rel(s.force[0], s.force[1], 1e-15);
+        ck_assert(s.force[2] == 0 && s.force[0] > 2.8e6 && s.force[0] < 2.9e6);
+        scene_free(&s);
+    }
+}
+END_TEST
+
+/*
  * A ring of spheres: lambda is 3/2 k x^(1/2) (1+nu)(3-2nu) / (2 pi R E) ([GC] 11), and the bound that comes with the one sweep is
  * exact but for the overlaps' room to grow: 1.01, and 1e-4 of an overlap that is at least 1 in its unit, the root of it.
  */
@@ -344,6 +394,8 @@ int main(void)
     tcase_add_test(t, nearly_one_place);
     tcase_add_test(t, slow_compression);
     tcase_add_test(t, after_fixed_point);
+    tcase_add_test(t, idle_candidates_in_one_place);
+    tcase_add_loop_test(t, soft_and_open, 0, 2);
     tcase_add_loop_test(t, ring_has_its_bound, 0, 6);
     tcase_add_loop_test(t, accepted_starts, 0, 8);
     tcase_add_loop_test(t, beyond_the_end, 0, ENDING);
