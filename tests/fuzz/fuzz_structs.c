@@ -45,8 +45,8 @@ static const size_t options_ends[] = {
     END(nlc_options, max_sweeps), END(nlc_options, prefactor), END(nlc_options, simd), END(nlc_options, points),
     END(nlc_options, stiffness), END(nlc_options, cache), END(nlc_options, cache_size), END(nlc_options, parallel_for),
     END(nlc_options, parallel_context), END(nlc_options, owned_particles), END(nlc_options, exchange), END(nlc_options, reduce),
-    END(nlc_options, context), 0};
-_Static_assert(END(nlc_particles, wall_count) == sizeof(nlc_particles) && END(nlc_options, context) == sizeof(nlc_options),
+    END(nlc_options, context), END(nlc_options, reserved), 0};
+_Static_assert(END(nlc_particles, wall_count) == sizeof(nlc_particles) && END(nlc_options, reserved) == sizeof(nlc_options),
                "fields that these lists do not have");
 
 static nlc_particles make_particles(bytes *in)
