@@ -84,9 +84,8 @@ static inline void nlc_point_at(double d[3], int face, double u, double v)
 {
     const int axis = face % 3;
     const double p = 1 - u * u, q = 1 - v * v, x = p * q, y = 2 * u * q, z = 2 * v * p, r = 1 / sqrt(x * x + y * y + z * z);
-    d[axis] = face < 3 ? r * x : -r * x;
-    d[(axis + 1) % 3] = r * y;
-    d[(axis + 2) % 3] = r * z;
+    const double from_axis[3] = {face < 3 ? r * x : -r * x, r * y, r * z};
+    for (int k = 0; k < 3; k++) d[k] = from_axis[(k + 3 - axis) % 3];
 }
 
 /* The picture of a direction on a face. */
