@@ -683,7 +683,7 @@ NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *opti
  *
  * Where a solve needs several sweeps the normals are the same in all of them.  Some models then keep what depends on nothing else, if
  * they are given room by options.cache: NLC_MODEL_SPHERE and NLC_MODEL_POINT_FORCE two numbers for each two contacts of a
- * particle, about 170 bytes a contact in a dense packing, for solves in about half the time; NLC_MODEL_GONZALEZ_CUITINO and
+ * particle, about 170 bytes a contact in a dense packing, for solves in two thirds of the time; NLC_MODEL_GONZALEZ_CUITINO and
  * NLC_MODEL_HALF_SPACE at undeformed points one number, but not in portable C, for solves in some four fifths of the time as long as
  * it all stays in the processor's caches.  The results are the same, bit for bit.  With less room as much is kept as it holds.
  *

@@ -317,7 +317,7 @@ START_TEST(own_images)
                 t += d * d;
             }
             if (e == f) continue;
-            const long double h = sqrtl(t), k = -4 * (1 - nu) / h - 2 * (1 - 2 * nu) + (7 - 8 * nu) / 2 * h, term = U * k * force[f >> 1];
+            const long double h = sqrtl(t), factor = -4 * (1 - nu) / h - 2 * (1 - 2 * nu) + (7 - 8 * nu) / 2 * h, term = U * factor * force[f >> 1];
             sum += term;
             size += fabsl(term);
         }

@@ -422,9 +422,9 @@ START_TEST(beside_the_sweep)
                 squares += c * c * w;
                 closest = t < closest ? t : closest;
             }
-        if (n->closest[k] > 0) nlc_assert_rel(n->closest[k], closest, 1e-14); /* a few roundings */
+        if (n->closest[k] > 0) nlc_assert_rel(n->closest[k], (double)closest, 1e-14); /* a few roundings */
         if (!nlc_variant_of(n) || isinf(m.young) || n->norm[k] >= INFINITY) continue;
-        nlc_assert_rel(n->norm[k], squares, 1e-13); /* coefficients to some 1e-15, which cancel by a factor of a few */
+        nlc_assert_rel(n->norm[k], (double)squares, 1e-13); /* coefficients to some 1e-15, which cancel by a factor of a few */
         ck_assert(n->closest[k] > 0);
     }
     scene_free(&s);

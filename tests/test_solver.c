@@ -315,9 +315,9 @@ START_TEST(accepted_starts)
     scene_packing(&s, name[_i / 2], 0.05);
     s.options.simd = simds[_i % 2];
     const double tolerance = 1e-5;
-    long double *exact = malloc((size_t)s.contacts * sizeof *exact);
+    long double *right = malloc((size_t)s.contacts * sizeof *right);
     double *best = malloc((size_t)s.contacts * sizeof *best), largest = 0;
-    ck_assert(scene_oracle(&s, 1, exact) < 1e-15L);
+    ck_assert(scene_oracle(&s, 1, right) < 1e-15L);
     s.options.tolerance = 1e-12;
     ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
     s.options.tolerance = tolerance;
@@ -327,12 +327,12 @@ START_TEST(accepted_starts)
     for (double noise = 1e-2; noise > 1e-9; noise /= 2) {
         for (int64_t c = 0; c < s.contacts; c++) s.nonlocal[c] = best[c] + noise * largest * rng_uniform(&g, -1, 1);
         nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, &info), NLC_OK));
-        ck_assert(scene_error(&s, s.force, exact) <= tolerance);
+        ck_assert(scene_error(&s, s.force, right) <= tolerance);
         ck_assert(info.residual <= tolerance);
         if (noise < 3e-8 && _i > 1) ck_assert_int_eq(info.sweeps, 1);
         if (noise < 3e-8 && _i > 3) ck_assert_int_eq(info.blocks, 0); /* nothing but that sweep */
     }
-    free(exact), free(best);
+    free(right), free(best);
     scene_free(&s);
 }
 END_TEST

@@ -128,7 +128,7 @@ static void tell_numbers(const figure *f, const bed_table *t)
     tell_largest(f, t);
     for (int m = 1; m < 4; m++)
         for (int k = 0; k < 5; k++)
-            for (int q = 0; q < 2; q++) tell_spread(f, t, four[m], .6 + .05 * k, q, m == 1 && k == 4 && q == BED_LOAD ? .5 : NAN);
+            for (int q = 0; q < 2; q++) tell_spread(f, t, four[m], .6 + .05 * k, (bed_quantity)q, m == 1 && k == 4 && q == BED_LOAD ? .5 : NAN);
 }
 
 bool bed_loads(figure *f)
