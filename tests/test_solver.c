@@ -269,6 +269,25 @@ START_TEST(soft_and_open)
 }
 END_TEST
 
+/* A start of the smallest number there is where nothing overlaps, and forces would be huge: it is nothing, and overflows nothing. */
+START_TEST(nothing_to_start_from)
+{
+    double stiffness[2] = {1e100, 1e100};
+    scene s;
+    scene_init(&s);
+    s.options.stiffness = stiffness;
+    const int32_t m = scene_material(&s, 1e-100, 0.3);
+    for (int k = 0; k < 3; k++) scene_particle(&s, 1, m);
+    scene_contact(&s, 0, 1, 0, 0, 0, 1);
+    scene_contact(&s, 1, 2, 0, 0, 0, 1);
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    s.nonlocal[0] = s.nonlocal[1] = 5e-324;
+    nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, NULL), NLC_OK));
+    ck_assert(s.force[0] == 0 && s.force[1] == 0);
+    scene_free(&s);
+}
+END_TEST
+
 /*
  * A ring of spheres: lambda is 3/2 k x^(1/2) (1+nu)(3-2nu) / (2 pi R E) ([GC] 11), and the bound that comes with the one sweep is
  * exact but for the overlaps' room to grow: 1.01, and 1e-4 of an overlap that is at least 1 in its unit, the root of it.
@@ -396,6 +415,7 @@ int main(void)
     tcase_add_test(t, after_fixed_point);
     tcase_add_test(t, idle_candidates_in_one_place);
     tcase_add_loop_test(t, soft_and_open, 0, 2);
+    tcase_add_test(t, nothing_to_start_from);
     tcase_add_loop_test(t, ring_has_its_bound, 0, 6);
     tcase_add_loop_test(t, accepted_starts, 0, 8);
     tcase_add_loop_test(t, beyond_the_end, 0, ENDING);

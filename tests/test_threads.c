@@ -151,7 +151,7 @@ START_TEST(weakened_by_many)
 }
 END_TEST
 
-/* Two contacts in the same direction: the same culprit. */
+/* Two contacts in the same direction, on particles of later windows: the same culprit. */
 START_TEST(same_error)
 {
     rng g = {5};
@@ -159,7 +159,7 @@ START_TEST(same_error)
     scene_init(&s);
     scene_lattice(&s, FACE_CENTRED, 8, 1, 0.3, 0.01, 0, &g);
     for (int64_t c = 0; c < s.contacts; c++)
-        if (c % 3001 == 3000) memcpy(s.normal + 3 * c, s.normal + 3 * (c - 1), 3 * sizeof *s.normal);
+        if (c == 7801) memcpy(s.normal + 3 * c, s.normal + 3 * (c - 1), 3 * sizeof *s.normal);
     ck_assert_int_eq(scene_build(&s), NLC_OK);
     const results alone = compute(&s);
     ck_assert_int_eq(alone.status[0], NLC_ERROR_COINCIDENT);
