@@ -23,7 +23,9 @@ static inline int64_t nlc_other_body(const nlc_network *n, int64_t e)
 static inline double nlc_effective(const nlc_network *n, int64_t e, double R)
 {
     const int64_t other = nlc_other_body(n, e);
-    return other < n->particle_count ? 0.5 * n->radius[other] / (0.5 * R + 0.5 * n->radius[other]) : 1;
+    if (other >= n->particle_count) return 1;
+    const double S = n->radius[other], part = R > 1e300 || S > 1e300 ? 0.5 : 1; /* the sum is in range, and not 0 */
+    return part * S / (part * R + part * S);
 }
 
 /* (a/R)^2 of a side, R being the particle's radius. */
