@@ -70,34 +70,35 @@ static bool overlap_on(const nlc_network *n, int64_t k, const double *overlap, c
 }
 
 /*
- * Largest x / (1 + R_smaller / R_larger): R times that is at least the square of any circle's radius on a particle of radius R.
- * The overlap of contacts pushed open is the one that they would have alone.
+ * x / (1 + R_smaller / R_larger) of a contact whose circle it makes larger than the largest such so far: R times that is at least the
+ * square of the circle's radius on a particle of radius R.  The overlap x of contacts pushed open is the one that they would have alone.
  */
-static double largest_reduced(const nlc_network *n, const double *overlap)
+static double larger_reduced(const nlc_network *n, const double *overlap, int64_t c, double largest)
 {
-    double largest = 0;
-    for (int64_t c = 0; c < n->contact_count; c++) {
-        const double half = 0.5 * alone(n, overlap, c);
-        largest = half > largest ? half : largest; /* none is reduced to less than its half */
-    }
-    for (int64_t c = 0; c < n->contact_count; c++) {
-        const double x = alone(n, overlap, c);
-        if (x <= largest) continue; /* what it is reduced to is less */
-        const int64_t i = n->i[c], j = n->j[c];
-        const double R = i < n->particle_count ? n->radius[i] : INFINITY, S = j < n->particle_count ? n->radius[j] : INFINITY;
-        const double reduced = x / (1 + (R < S ? R / S : S / R));
-        largest = reduced > largest ? reduced : largest;
-    }
-    return largest;
+    const double x = alone(n, overlap, c);
+    if (x <= largest) return largest; /* what it is reduced to is less */
+    const int64_t i = n->i[c], j = n->j[c];
+    const double R = i < n->particle_count ? n->radius[i] : INFINITY, S = j < n->particle_count ? n->radius[j] : INFINITY;
+    const double reduced = x / (1 + (R < S ? R / S : S / R));
+    return reduced > largest ? reduced : largest;
+}
+
+/* Whether circles of radii up to (R reduced)^1/2 may overlap on a particle. */
+static bool may_overlap(const nlc_network *n, int64_t particle, double reduced)
+{
+    return reduced >= 0.249 * n->closest[particle] * n->radius[particle];
 }
 
 /* Most particles need no look at pairs: their circles are too small for the distance of the closest two directions. */
 bool nlc_circles_overlap(const nlc_network *n, const double *overlap, const double *normal)
 {
-    const double x = largest_reduced(n, overlap);
+    double largest = 0;
+    for (int64_t c = 0; c < n->contact_count; c++) largest = larger_reduced(n, overlap, c, largest);
     for (int64_t k = 0; k < n->owned; k++) {
-        const bool apart = x < 0.249 * n->closest[k] * n->radius[k];
-        if (n->scale[k] > 0 && !apart && overlap_on(n, k, overlap, normal)) return true;
+        double here = 0;
+        if (n->scale[k] <= 0 || !may_overlap(n, k, largest)) continue;
+        for (int64_t p = n->start[k]; p < n->start[k + 1]; p++) here = larger_reduced(n, overlap, n->entry[p] >> 1, here);
+        if (may_overlap(n, k, here) && overlap_on(n, k, overlap, normal)) return true;
     }
     return false;
 }
