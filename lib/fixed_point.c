@@ -104,7 +104,7 @@ static void finish(nlc_outcome *out, nlc_status status, double residual, int64_t
 
 void nlc_fixed_point(nlc_network *n, const double *overlap, const double *normal, nlc_outcome *out)
 {
-    const double runaway = RUNAWAY * (nlc_is_shared(n) ? n->ranks.overlap : nlc_largest_magnitude(overlap, n->contact_count));
+    const double runaway = RUNAWAY * (n->top.overlap);
     state s = {.rate = {FIRST_RATE, FIRST_RATE, FIRST_RATE}, .smallest = INFINITY};
     const bool places = n->settings.model->shape == NLC_SHAPE_PLACE;
     nlc_set_units(n, 0, 0);

@@ -83,6 +83,18 @@ static void set_slopes(nlc_iteration *q)
     }
 }
 
+/* Whether an overlap exceeds what the slopes of the known bound are for. */
+static bool has_grown(const nlc_iteration *q)
+{
+    const double *start = q->n->spare[2];
+    int64_t grown = 0;
+    for (int64_t c = 0; c < q->n->contact_count; c++) {
+        const double y = nlc_scaled_overlap(q, c);
+        grown += y > 0 && y > nlc_weighed_overlap(start[c]);
+    }
+    return nlc_on_any_rank(q->n, grown > 0);
+}
+
 /* Whether lambda is proved to be low enough for the residual at hand; BEYOND if the bound says that it may not be stable. */
 static verdict certify(nlc_iteration *q, double beta, nlc_outcome *out)
 {
@@ -90,6 +102,10 @@ static verdict certify(nlc_iteration *q, double beta, nlc_outcome *out)
     nlc_bound bound = {INFINITY, -1, 0};
     if (beta > limit) beta = limit;
     if (q->theta > beta && q->theta < limit) return GO_ON; /* a Ritz value is a lower bound */
+    if (q->n->known_bound <= beta && !has_grown(q)) {
+        out->info.lambda_upper = q->n->known_bound;
+        return DONE;
+    }
     set_slopes(q);
     bool good = nlc_bound_below(q->n, q->normal, beta, &bound), beyond = false;
     if (!good && beta >= BALANCE_FROM) {
@@ -236,6 +252,7 @@ static void solve(nlc_network *n, const double *overlap, const double *normal, d
 {
     nlc_iteration q;
     progress s = {.ratio = 1e10, .best = INFINITY, .where = -1, .begun = out->info.sweeps, .first = true};
+    if (!n->swept) n->known_bound = 1; /* it was for another start */
     nlc_iteration_start(&q, n, overlap, normal, part);
     const verdict v = iterate(&q, &s, out);
     if (out->status < 0) return;
@@ -260,7 +277,7 @@ static void solve(nlc_network *n, const double *overlap, const double *normal, d
 void nlc_galerkin(nlc_network *n, const double *overlap, const double *normal, nlc_outcome *out)
 {
     const int64_t most = n->settings.max_sweeps;
-    const bool cold = nlc_is_shared(n) ? n->ranks.nonlocal <= 0 : nlc_largest_magnitude(n->current, n->contact_count) <= 0;
+    const bool cold = nlc_is_shared(n) ? n->top.nonlocal <= 0 : nlc_largest_magnitude(n->current, n->contact_count) <= 0;
     for (int attempt = cold; attempt < 2; attempt++) {
         solve(n, overlap, normal, 1, out);
         if (out->status != NLC_WARNING_NOT_CONVERGED || out->info.sweeps >= most) return;

@@ -47,6 +47,16 @@ static inline double nlc_scaled_force(const nlc_iteration *q, int64_t c)
     return nlc_law(nlc_scaled_stiffness(q, c), nlc_scaled_overlap(q, c));
 }
 
+/*
+ * The overlap whose slope stands for that of y when a bound of lambda is looked for with a sweep (warm.c): the bound holds until an
+ * overlap exceeds it, so it is a little larger.
+ */
+static inline double nlc_weighed_overlap(double y)
+{
+    const double more = 1.01 * y + 1e-4;
+    return 0.5 * (more + fabs(more));
+}
+
 /* units.c: sets the units. */
 void nlc_iteration_units(nlc_iteration *q, nlc_network *network, const double *overlap, const double *normal, double part);
 /* Sets the units, the start (network->force from network->current, which it scales) and the floor of the slopes. */

@@ -48,8 +48,12 @@ typedef struct nlc_ranks {
     bool over;         /* all ranks know of an error */
     nlc_status status; /* of this rank */
     int64_t culprit;
-    double overlap, stiffness, nonlocal; /* largest magnitudes on any rank */
 } nlc_ranks;
+
+/* Largest magnitudes of what is being solved for, on any rank; negative: not known. */
+typedef struct nlc_tops {
+    double overlap, stiffness, nonlocal;
+} nlc_tops;
 
 struct nlc_network {
     uint64_t magic;
@@ -58,6 +62,7 @@ struct nlc_network {
     int64_t straddling; /* contacts with a ghost */
     nlc_settings settings;
     nlc_ranks ranks;
+    nlc_tops top;
     bool self_contacts;     /* some contact has i = j */
     int64_t most_contacts;  /* of a particle */
     bool connected;         /* all contacts are one cluster, see clusters.c */
@@ -79,6 +84,7 @@ struct nlc_network {
     int length_unit, stiffness_unit;
     double unit; /* coefficients are multiplied by it */
     bool cached; /* the cache holds the coefficients at the normals of this call */
+    double known_bound; /* of lambda, if swept, until an overlap exceeds nlc_weighed_overlap of what it is at the start; 1: none is known */
     bool swept; /* side holds the displacements by the forces of current: the next iteration need not begin with a sweep */
     /* Work space; sides on walls stay 0 in side, walls in largest */
     double *side;     /* [2 contacts] displacement of each side */

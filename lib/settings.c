@@ -104,7 +104,8 @@ void nlc_apply_settings(nlc_network *n, const nlc_settings *settings, const doub
         if (settings->model->prepare && nlc_is_material(n->materials[m].young, n->materials[m].poisson))
             settings->model->prepare(&n->kernel[m], n->materials[m].poisson, settings->prefactor);
     for (int64_t c = 0; c < n->contact_count; c++) n->stiffness[c] = stiffness ? stiffness[c] : hertz_stiffness_of(n, c);
-    n->stiffness_exponent = nlc_exponent_above(nlc_largest_magnitude(n->stiffness, n->contact_count));
+    n->top.stiffness = nlc_largest_magnitude(n->stiffness, n->contact_count);
+    n->stiffness_exponent = nlc_exponent_above(n->top.stiffness);
 }
 
 static nlc_status check_stiffnesses(const nlc_network *n, const double *stiffness, int64_t *culprit)

@@ -20,12 +20,14 @@ static nlc_status check_range(double overlap, int stiffness_exponent, int coupli
     return coupling_exponent + stiffness_exponent + (e - HEADROOM) / 2 > COUPLING ? NLC_ERROR_RANGE : NLC_OK;
 }
 
-static nlc_status check(const nlc_network *n, const double *overlap, const double *normal, const double *nonlocal, int64_t *culprit)
+static nlc_status check(nlc_network *n, const double *overlap, const double *normal, const double *nonlocal, int64_t *culprit)
 {
-    if ((*culprit = nlc_first_not_finite(overlap, n->contact_count)) >= 0) return NLC_ERROR_OVERLAP;
+    n->top.overlap = nlc_largest_magnitude(overlap, n->contact_count);
+    n->top.nonlocal = nlc_largest_magnitude(nonlocal, n->contact_count);
+    if ((*culprit = nlc_first_not_finite(overlap, nlc_is_finite(n->top.overlap) ? 0 : n->contact_count)) >= 0) return NLC_ERROR_OVERLAP;
     if ((*culprit = nlc_first_not_unit(normal, n->contact_count)) >= 0) return NLC_ERROR_NORMAL;
-    if ((*culprit = nlc_first_not_finite(nonlocal, n->contact_count)) >= 0) return NLC_ERROR_NONLOCAL;
-    return check_range(nlc_largest_magnitude(overlap, n->contact_count), n->stiffness_exponent, n->coupling_exponent);
+    if ((*culprit = nlc_first_not_finite(nonlocal, nlc_is_finite(n->top.nonlocal) ? 0 : n->contact_count)) >= 0) return NLC_ERROR_NONLOCAL;
+    return check_range(n->top.overlap, n->stiffness_exponent, n->coupling_exponent);
 }
 
 /* Largest overlap on each particle, 0 at least. */
@@ -55,23 +57,18 @@ static double start_of(const nlc_network *n, int64_t c, const double *overlap, c
     return g > cap ? cap : g < -cap ? -cap : g;
 }
 
+/* nonlocal may be n->current. */
 static void start_from(nlc_network *n, const double *overlap, const double *nonlocal)
 {
     bool capped = false;
     if (nlc_is_shared(n)) memcpy(n->largest, nlc_shared_overlaps(n), (size_t)n->body_count * sizeof *n->largest);
     else largest_overlaps(n, overlap);
     for (int64_t c = 0; c < n->contact_count; c++) {
-        n->current[c] = start_of(n, c, overlap, nonlocal);
-        capped |= nonlocal && nlc_bits(n->current[c]) != nlc_bits(nonlocal[c]);
+        const double g = start_of(n, c, overlap, nonlocal);
+        capped |= nonlocal && nlc_bits(g) != nlc_bits(nonlocal[c]);
+        n->current[c] = g;
     }
     if (n->swept) n->swept = !nlc_on_any_rank(n, capped);
-}
-
-static bool all_zero(const double *values, int64_t count)
-{
-    for (int64_t c = 0; c < count; c++)
-        if (nlc_abs_bits(values[c]) != 0) return false;
-    return true;
 }
 
 void nlc_start_over(nlc_outcome *out)
@@ -193,18 +190,19 @@ static void accelerated(nlc_network *n, const double *overlap, const double *nor
 static void iterate(nlc_network *n, const double *overlap, const double *normal, const double *nonlocal, nlc_outcome *out)
 {
     n->swept = false;
+    n->known_bound = 1;
     if (n->settings.method == NLC_METHOD_AUTOMATIC && nlc_is_solved(n, overlap, normal, nonlocal, out)) {
         warn_if_close(n, overlap, normal, out);
         return;
     }
-    start_from(n, overlap, nonlocal);
+    start_from(n, overlap, n->swept ? n->current : nonlocal); /* further on, if that is known */
     if (n->settings.method != NLC_METHOD_FIXED_POINT) {
         accelerated(n, overlap, normal, nonlocal, out);
         return;
     }
     nlc_fixed_point(n, overlap, normal, out);
     if (out->status == NLC_WARNING_NOT_CONVERGED && out->info.sweeps < n->settings.max_sweeps &&
-        (nlc_is_shared(n) ? n->ranks.nonlocal > 0 : !all_zero(nonlocal, n->contact_count))) {
+        n->top.nonlocal > 0) {
         start_from(n, overlap, 0); /* it may have been a bad start */
         nlc_fixed_point(n, overlap, normal, out);
     }
@@ -224,11 +222,12 @@ static void uncoupled(nlc_network *n, nlc_outcome *out)
 }
 
 /* All that can be wrong with the arguments of a network that is one. */
-static nlc_status check_arguments(const nlc_network *n, const double *force, const double *nonlocal, const double *overlap,
+static nlc_status check_arguments(nlc_network *n, const double *force, const double *nonlocal, const double *overlap,
                                   const double *normal, int64_t *culprit)
 {
     const double *const argument[4] = {force, nonlocal, overlap, normal};
     *culprit = -1;
+    n->top.overlap = n->top.nonlocal = 0;
     if (n->contact_count == 0) return NLC_OK;
     for (int a = 0; a < 4; a++) {
         *culprit = a + 1;
@@ -238,20 +237,18 @@ static nlc_status check_arguments(const nlc_network *n, const double *force, con
 }
 
 /* The ranks of a shared network come together; false if there is an error anywhere. */
-static bool meet(nlc_network *n, nlc_status status, const double *overlap, const double *nonlocal, nlc_outcome *out)
+static bool meet(nlc_network *n, nlc_status status, const double *overlap, nlc_outcome *out)
 {
     double top[5] = {0, 0, 0, n->stiffness_exponent, n->coupling_exponent};
     if (status == NLC_OK) {
         largest_overlaps(n, overlap);
-        top[0] = nlc_largest_magnitude(overlap, n->contact_count);
+        top[0] = n->top.overlap;
         top[1] = nlc_largest_magnitude(n->stiffness, n->contact_count);
-        top[2] = nlc_largest_magnitude(nonlocal, n->contact_count);
+        top[2] = n->top.nonlocal;
     }
     nlc_meet(n, NLC_SOLVE, status, out->info.culprit, n->largest, top, 5);
     memcpy(nlc_shared_overlaps(n), n->largest, (size_t)n->body_count * sizeof *n->largest);
-    n->ranks.overlap = top[0];
-    n->ranks.stiffness = top[1];
-    n->ranks.nonlocal = top[2];
+    n->top = (nlc_tops){top[0], top[1], top[2]};
     if (nlc_is_over(n, out)) return false;
     out->info.culprit = -1;
     out->status = check_range(top[0], (int)top[3], (int)top[4]);
@@ -280,7 +277,7 @@ nlc_status nlc_solve(nlc_network *network, double *NLC_RESTRICT force, double *N
     if (count == 0 && !shared) return nlc_error(info, NLC_OK, -1);
     nlc_outcome out = {NLC_OK, nlc_new_info()};
     out.status = valid ? check_arguments(network, force, nonlocal, overlap, normal, &out.info.culprit) : NLC_ERROR_STRUCT_SIZE;
-    if (shared) meet(network, out.status, overlap, nonlocal, &out);
+    if (shared) meet(network, out.status, overlap, &out);
     network->cached = false;
     if (out.status == NLC_OK) solve(network, overlap, normal, nonlocal, &out);
     if (shared && out.status >= 0) {

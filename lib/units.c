@@ -29,10 +29,10 @@ static void largest_overlaps(nlc_iteration *q)
 void nlc_iteration_units(nlc_iteration *q, nlc_network *n, const double *overlap, const double *normal, double part)
 {
     *q = (nlc_iteration){.n = n, .overlap = overlap, .normal = normal, .directions = 1};
-    const bool shared = nlc_is_shared(n);
-    const double top = shared ? n->ranks.overlap : nlc_largest_magnitude(overlap, n->contact_count);
+    const double top = n->top.overlap >= 0 ? n->top.overlap : nlc_largest_magnitude(overlap, n->contact_count);
+    const double stiffest = n->top.stiffness >= 0 ? n->top.stiffness : nlc_largest_magnitude(n->stiffness, n->contact_count);
     const int length = per_unit_of(top, 2); /* its root is a power of 2, too */
-    const int stiffness = per_unit_of(shared ? n->ranks.stiffness : nlc_largest_magnitude(n->stiffness, n->contact_count), 1);
+    const int stiffness = per_unit_of(stiffest, 1);
     q->per_overlap = nlc_pow2(length);
     q->per_stiffness = nlc_pow2(stiffness);
     q->load = q->per_overlap * part;

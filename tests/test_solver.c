@@ -348,11 +348,58 @@ START_TEST(accepted_starts)
         nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, &info), NLC_OK));
         ck_assert(scene_error(&s, s.force, right) <= tolerance);
         ck_assert(info.residual <= tolerance);
-        if (noise < 3e-8 && _i > 1) ck_assert_int_eq(info.sweeps, 1);
+        if (noise < 4e-9 && _i > 1) ck_assert_int_eq(info.sweeps, 1);
         if (noise < 3e-8 && _i > 3) ck_assert_int_eq(info.blocks, 0); /* nothing but that sweep */
     }
     free(right), free(best);
     scene_free(&s);
+}
+END_TEST
+
+/* Where lambda is .9 a start with a small residual may be far off: what is accepted is within the tolerance all the same. */
+START_TEST(accepted_near_the_end)
+{
+    scene s;
+    nlc_info info = {.struct_size = sizeof info};
+    scene_init(&s);
+    s.options.simd = simds[_i];
+    s.options.tolerance = 1e-12;
+    scene_cell(&s, SIMPLE_CUBIC, 1, 1e6, 0.46, (const double[]){0.83, 0.83, 0.83});
+    ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+    ck_assert(info.lambda_lower > 0.9);
+    const double force = s.force[0], nonlocal = s.nonlocal[0];
+    s.options.tolerance = 1e-4;
+    ck_assert_int_eq(nlc_set_options(s.network, &s.options, 0), NLC_OK);
+    for (double noise = 1e-2; noise > 1e-9; noise /= 1.3) {
+        for (int64_t c = 0; c < s.contacts; c++) s.nonlocal[c] = (1 - noise) * nonlocal;
+        ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+        for (int64_t c = 0; c < s.contacts; c++) ck_assert(fabs(s.force[c] - force) <= 1e-4 * force);
+    }
+    scene_free(&s);
+}
+END_TEST
+
+/*
+ * A bound of lambda found at the start is of no use where overlaps grow beyond it: from almost no displacements up to the end of
+ * the stable branch of a crystal (at .172) and beyond, the status and forces are those found from none.
+ */
+START_TEST(overlaps_grow)
+{
+    for (double eps = 0.01; eps < 0.2; eps += 0.003) {
+        scene s;
+        nlc_info cold = {.struct_size = sizeof cold}, warm = {.struct_size = sizeof warm};
+        scene_init(&s);
+        s.options.tolerance = 1e-3;
+        s.options.simd = simds[_i];
+        scene_cell(&s, SIMPLE_CUBIC, 1, 1e6, 0.46, (const double[]){1 - eps, 1 - eps, 1 - eps});
+        const nlc_status status = scene_solve(&s, &cold);
+        const double force = s.force[0];
+        for (int64_t c = 0; c < s.contacts; c++) s.nonlocal[c] = 1e-3 * s.overlap[c];
+        ck_assert_int_eq(scene_solve(&s, &warm), status);
+        for (int64_t c = 0; c < s.contacts; c++) ck_assert(fabs(s.force[c] - force) <= 2e-3 * force); /* two tolerances */
+        if (status == NLC_OK) ck_assert(warm.lambda_lower <= warm.lambda_upper); /* beyond, they are of different states */
+        scene_free(&s);
+    }
 }
 END_TEST
 
@@ -396,7 +443,7 @@ START_TEST(slow_compression)
         printf("1000 steps: %.2f sweeps a step, %.2f with prediction; error of the start %.1e, %.1e\n", (double)sweeps[0] / 998,
                (double)sweeps[1] / 998, lagged[0], lagged[1]);
     ck_assert_int_le(sweeps[0], 5 * 998);
-    ck_assert_int_le(sweeps[1], 3 * 998 / 2);
+    ck_assert_int_le(sweeps[1], 2 * 998);
     ck_assert(lagged[1] < 0.1 * lagged[0]);
     free(overlap), free(previous), free(w), free(guess), free(plain), free(force);
     scene_free(&s);
@@ -418,6 +465,8 @@ int main(void)
     tcase_add_test(t, nothing_to_start_from);
     tcase_add_loop_test(t, ring_has_its_bound, 0, 6);
     tcase_add_loop_test(t, accepted_starts, 0, 8);
+    tcase_add_loop_test(t, accepted_near_the_end, 0, 2);
+    tcase_add_loop_test(t, overlaps_grow, 0, 2);
     tcase_add_loop_test(t, beyond_the_end, 0, ENDING);
     suite_add_tcase(suite, t);
     return run_suite(suite);
