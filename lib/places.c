@@ -21,7 +21,7 @@ void nlc_split_sides(const nlc_network *n, double *side)
     for (int64_t c = 0; c < n->contact_count; c++) {
         const double a = nlc_yield_of(n, n->i[c]), b = nlc_yield_of(n, n->j[c]), larger = a > b ? a : b;
         const double r = a / (larger + 1e-300), s = b / (larger + 1e-300), sum = r + s + 1e-300;
-        side[2 * c] = r / sum * n->current[c];
-        side[2 * c + 1] = s / sum * n->current[c];
+        side[2 * c] = r / sum * n->current[c] + 0; /* on walls 0 and not -0: no sweep writes there */
+        side[2 * c + 1] = s / sum * n->current[c] + 0;
     }
 }
