@@ -876,7 +876,8 @@ NLC_API nlc_status nlc_tangent_inverse(nlc_network *network, double *NLC_RESTRIC
  * normal       [contacts][3] as for nlc_solve
  * info         or NULL: lambda_upper, critical_particle, blocks
  * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _NO_POTENTIAL, _FORCE, _NORMAL, _RANGE, _UNSTABLE (not proved to be
- * stable); on ranks, where that of ghosts is 0, _OPTION, _REMOTE, _CALLBACK.
+ * stable; so are equal directions), _COINCIDENT (instead of that in NLC_MODEL_SPHERE, whose state takes a sweep); on ranks, where that
+ * of ghosts is 0, _OPTION, _REMOTE, _CALLBACK.
  */
 NLC_API nlc_status nlc_tangent_bound(nlc_network *network, double *NLC_RESTRICT stiffness, const double *NLC_RESTRICT force,
                                      const double *NLC_RESTRICT normal, nlc_info *info);
