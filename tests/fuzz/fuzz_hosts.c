@@ -248,8 +248,8 @@ static void try_carry(scene *s)
 
 static void try_scalar(scene *s)
 {
-    enum { FUNCTIONS = 14 };
-    double x[7], n[9], two[2], four[4], r[FUNCTIONS];
+    enum { FUNCTIONS = 14, FIELDS = 5 };
+    double x[7], n[9], field[FIELDS][4] = {{0}}, r[FUNCTIONS];
     for (int k = 0; k < 7; k++) x[k] = make_number(s, ODD_VALUES, 0, 1);
     for (int k = 0; k < 3; k++) take_unit(&s->in, (uint64_t)k, n + 3 * k);
     if (take_bit(&s->in, s->odd, ODD_VALUES)) n[take(&s->in, 1) % 9] = take_any(&s->in);
@@ -266,11 +266,11 @@ static void try_scalar(scene *s)
     r[9] = nlc_sphere_finite_size(x[0], x[1], x[2]);
     r[10] = nlc_sphere_self(x[0], x[1], x[2]);
     r[11] = nlc_sphere_self_energy(x[0], x[1], x[2]);
-    nlc_point_displacement(two, x[0], x[1], x[2], x[3], x[4]);
-    nlc_love_displacement(two, x[0], x[1], x[2], x[3], x[4], x[5]);
-    nlc_point_traction(two, x[0], x[1], x[2], x[3]);
-    nlc_point_stress(four, x[0], x[1], x[2], x[3]);
-    nlc_love_stress(four, x[0], x[1], x[2], x[3], x[4]);
+    nlc_point_displacement(field[0], x[0], x[1], x[2], x[3], x[4]);
+    nlc_love_displacement(field[1], x[0], x[1], x[2], x[3], x[4], x[5]);
+    nlc_point_traction(field[2], x[0], x[1], x[2], x[3]);
+    nlc_point_stress(field[3], x[0], x[1], x[2], x[3]);
+    nlc_love_stress(field[4], x[0], x[1], x[2], x[3], x[4]);
     r[12] = nlc_nonlocal_displacement_between(x[0], n, n + 3, x[1], x[2], x[3]);
     r[13] = nlc_half_space_displacement(x[0], n, n + 3, n + 6, x[1], x[2], x[3]);
     unwatch("a scalar function");
@@ -279,6 +279,14 @@ static void try_scalar(scene *s)
         bool nan = false;
         for (int k = 0; k < arguments[f]; k++) nan = nan || isnan(x[k]);
         demand(!nan || isnan(r[f]), "NaN of NaN");
+    }
+    static const int field_arguments[FIELDS] = {5, 6, 4, 4, 5}, components[FIELDS] = {2, 2, 2, 4, 4};
+    for (int f = 0; f < FIELDS; f++) {
+        int nan = 0, found = 0;
+        for (int k = 0; k < field_arguments[f]; k++) nan += isnan(x[k]) != 0;
+        for (int k = 0; k < components[f]; k++) found += isnan(field[f][k]) != 0;
+        demand(nan == 0 || found == components[f], "NaN of NaN");
+        demand(found == 0 || found == components[f], "all or none");
     }
     const char *text = nlc_strerror((nlc_status)take_integer(&s->in));
     demand(text && text[0] != '\0', "nlc_strerror");

@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-enum { PARTICLES, OPTIONS, INFO, SECOND_INFO, RECORD, MEMORY, SECOND_MEMORY, FORCE, NONLOCAL, SECOND_FORCE, SECOND_NONLOCAL, LARGEST = 5000 };
+enum { PARTICLES, OPTIONS, INFO, SECOND_INFO, RECORD, NAME, MEMORY, SECOND_MEMORY, FORCE, NONLOCAL, SECOND_FORCE, SECOND_NONLOCAL, LARGEST = 5000 };
 
 static const double radius[4] = {1, 1.5, 2, 1}, normal[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0.6, 0.8}, overlap[4] = {0.02, 0.01, -0.001, 0.03},
                     stiffness[4] = {1e9, 2e9, 1e9, 3e9};
@@ -166,6 +166,26 @@ static void try_record(bytes *in)
     for (size_t k = common; k < size; k++) demand(p[k] == 0, "surplus bytes of a record");
 }
 
+/* Any word, at the end of memory: a model's name if it is that of a record, letter by letter. */
+static void try_name(bytes *in)
+{
+    const int32_t count = nlc_model_count(), like = (int32_t)(take(in, 1) % 16);
+    nlc_model_record record = {.struct_size = sizeof record};
+    const char *from = like < count && nlc_model_info(like, &record, NULL) == NLC_OK ? record.name : "";
+    const size_t length = from[0] ? strlen(from) : (size_t)(take(in, 1) % 32);
+    char *name = room(NAME, length + 1, true, 0);
+    for (size_t k = 0; k < length; k++) name[k] = from[0] ? from[k] : (char)take(in, 1);
+    name[length] = '\0';
+    if (from[0] && take(in, 1) & 1) name[take(in, 1) % length] = (char)take(in, 1);
+    watch();
+    const int32_t model = nlc_model_find(name), none = nlc_model_find(NULL);
+    const char *version = nlc_version();
+    unwatch("nlc_model_find");
+    demand(none == -1 && model >= -1 && model < count && version && version[0] != '\0', "nlc_model_find");
+    for (int32_t m = 0; m < count; m++)
+        demand(nlc_model_info(m, &record, NULL) == NLC_OK && (m == model) == (strcmp(record.name, name) == 0), "nlc_model_find");
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     bytes in = {data, size};
@@ -213,6 +233,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         demand(!is_size(options_size) || (more ? found == NLC_ERROR_RESERVED : found == NLC_OK), "surplus bytes of options");
     }
     try_record(&in);
+    try_name(&in);
     for (int k = 0; k <= SECOND_NONLOCAL; k++) demand(room_intact(k), "what lies around a struct");
     return 0;
 }

@@ -2,7 +2,7 @@
 /*
  * main.c - a fuzzing program without a fuzzer.
  *
- *     PROGRAM [FILE | FOLDER]...            replays files; without one what comes from stdin (AFL++ without its driver)
+ *     PROGRAM [FILE | FOLDER]...            replays files; without one what comes from stdin, or all that AFL++ hands over
  *     PROGRAM --random COUNT SEED [...]     that many inputs: the files, altered at random, and random bytes
  */
 #include <dirent.h>
@@ -120,6 +120,21 @@ static void keep(int number)
     raise(number);
 }
 
+/* With AFL++'s compiler: one input after the other in the same process, from memory. */
+#if defined(__AFL_FUZZ_TESTCASE_LEN)
+__AFL_FUZZ_INIT();
+static void take_turns(void)
+{
+    const uint8_t *data = __AFL_FUZZ_TESTCASE_BUF;
+    while (__AFL_LOOP(100000)) try(data, (size_t)__AFL_FUZZ_TESTCASE_LEN);
+}
+#else
+static void take_turns(void)
+{
+    add_stream(stdin);
+}
+#endif
+
 int main(int argc, char **argv)
 {
     uint64_t count = 0, state = 0;
@@ -130,8 +145,8 @@ int main(int argc, char **argv)
         first = 4;
     }
     for (int k = first; k < argc; k++) add(argv[k]);
-    if (argc == 1) add_stream(stdin);
     for (const int *s = (const int[]){SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, 0}; *s != 0; s++) signal(*s, keep);
+    if (argc == 1) take_turns();
     for (size_t k = 0; k < input_count; k++) try(inputs[k].data, inputs[k].size);
     static uint8_t altered[LONGEST];
     for (uint64_t k = 0; k < count; k++) {
