@@ -260,6 +260,16 @@ audit: ## all of these with full counts, a day or so; what they find goes to aud
 	@S='$(abspath $(S))' B='$(abspath $(B))' MAKE='$(MAKE)' VERSION='$(VERSION)' sh $(S)/tests/audit
 -include $(wildcard $(B)/tests/fuzz/*.d)
 
+# ---- load: many networks, large ones, large counts
+.PHONY: load
+LOAD := $(addprefix $(B)/tests/load/,solves contacts counts)
+$(LOAD): %: %.o $(STATIC)
+	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
+check: $(LOAD)
+load: $(LOAD) ## a million small networks, one that fills the memory, counts beyond 2^31: some ten minutes
+	@B='$(abspath $(B))' sh $(S)/tests/load/run
+-include $(wildcard $(B)/tests/load/*.d)
+
 stress: $(B)/tests/test_stress ## the solver on its whole grid of scenes, with a table; a few minutes
 	@NLC_TEST_FULL=1 $(EMULATOR) $<
 
