@@ -2,13 +2,16 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Mutation test: breaks the library in one place after the other, and looks whether the tests notice.
 
-    mutate.py [--only WORD] [--every N] [--first-only] [--work FOLDER] [--list]
+    mutate.py [--only WORD] [--every N] [--first-only] [--work FOLDER] [--done FILE] [--list]
 
 tests/mutants has a line for each mutant: file, tests most likely to notice, text, what it becomes and, where no test can be expected
 to notice, why; tabs between.  The text must be in the file just once.  Each mutant is built in a copy of the sources; its tests
 run first, then the others.  What fails, hangs or does not compile is killed.  Fails if fewer than 95 % are killed, or if a
-survivor has no reason."""
+survivor has no reason.
+
+It takes hours: what is killed is noted in FILE, and not tried again as long as the file that it changes is the same."""
 import argparse
+import hashlib
 import os
 import pathlib
 import shutil
@@ -21,7 +24,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 COPIED = ["Makefile", "include", "lib", "tests", "bench"]
 ENOUGH = 0.95
 FUZZ = "test_fuzz"  # the fuzzing programs on their corpus
-SLACK = 10  # a test that takes so many times as long as with the library as it is, and a minute, hangs
+SLACK = 6  # a test that takes so many times as long as with the library as it is, and half a minute, hangs
 
 
 def read_mutants():
@@ -42,8 +45,9 @@ def read_mutants():
 
 def make(work, *targets):
     environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL", "B")}
-    return subprocess.run(["make", "-s", "-C", str(work), "B=" + str(work / "build"), "CFLAGS=-O1", *targets], capture_output=True,
-                          text=True, env=environment)
+    # tests/platforms/check.h in the place of Check: the first failure ends the program
+    return subprocess.run(["make", "-s", "-C", str(work), "B=" + str(work / "build"), "CFLAGS=-O1", "CHECK_LIBS=",
+                           "CHECK_CFLAGS=-I" + str(work / "tests/platforms"), *targets], capture_output=True, text=True, env=environment)
 
 
 def run(work, test, limit):
@@ -86,11 +90,21 @@ def try_mutant(work, mutant, every_test, usual):
                 return "the compiler"
             if test not in usual:
                 usual[test] = 30.0
-            if not run(work, test, 60 + SLACK * usual[test])[0]:
+            if not run(work, test, 30 + SLACK * usual[test])[0]:
                 return test
         return None
     finally:
         path.write_text(text)
+
+
+def read_done(path):
+    """Mutants killed before: a digest of the file as they leave it, and who did it."""
+    return dict(line.split(" ", 1) for line in path.read_text().splitlines()) if path.exists() else {}
+
+
+def digest_of(mutant):
+    number, file, first, old, new, reason = mutant
+    return hashlib.sha256((file + "\n" + (ROOT / file).read_text().replace(old, new)).encode()).hexdigest()
 
 
 def main():
@@ -99,6 +113,7 @@ def main():
     parser.add_argument("--every", type=int, default=1, help="every Nth of those")
     parser.add_argument("--first-only", action="store_true", help="only the tests named, not the others")
     parser.add_argument("--work", type=pathlib.Path, default=ROOT / "build/mutants")
+    parser.add_argument("--done", type=pathlib.Path, help="what is killed is noted here, and not tried again; default: FOLDER.killed")
     parser.add_argument("--list", action="store_true", help="only look whether every text is where it should be")
     options = parser.parse_args()
     mutants = [m for m in read_mutants() if options.only in m[1]][::options.every]
@@ -107,6 +122,8 @@ def main():
         return
     every_test = sorted(p.stem for p in (ROOT / "tests").glob("test_*.c")) + [FUZZ]
     work = options.work.resolve()
+    done_file = (options.done or work.with_name(work.name + ".killed")).resolve()
+    done = read_done(done_file)
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
     for name in COPIED:
@@ -124,11 +141,17 @@ def main():
         passed, usual[test] = run(work, test, 1800)
         if not passed:
             sys.exit(f"mutate: {test} fails with the library as it is")
+    every_test.sort(key=lambda test: usual.get(test, 0))
+    print("mutate: seconds of the tests: " + ", ".join(f"{t} {usual[t]:.0f}" for t in every_test if t in usual), flush=True)
     killed, survivors = 0, []
     for mutant in mutants:
         number, file, first, old, new, reason = mutant
-        killer = try_mutant(work, mutant, [] if options.first_only else every_test, usual)
+        digest = digest_of(mutant)
+        killer = done.get(digest) or try_mutant(work, mutant, [] if options.first_only else every_test, usual)
         if killer:
+            if digest not in done:
+                with done_file.open("a") as notes:
+                    notes.write(f"{digest} {killer}\n")
             killed += 1
             print(f"{number}: {file}: killed by {killer}: {old} -> {new}" + (" although it should survive" if reason else ""), flush=True)
         else:
