@@ -217,18 +217,58 @@ START_TEST(networks_of_their_own)
 }
 END_TEST
 
-static const scene *read_by_all;
+/* What the functions that take a const nlc_network make of one. */
+typedef struct reading {
+    const scene *s;
+    double *sliding;                     /* [contacts][3], read by all */
+    double *F, *turned, *torque, *moved; /* [particles][3]; moved: [particles] */
+    double reach;
+    size_t cache_size;
+    nlc_status status[4];
+} reading;
+
+static reading new_reading(const scene *s, double *sliding)
+{
+    reading r = {.s = s, .sliding = sliding};
+    const size_t n = (size_t)s->particles;
+    double **arrays[] = {&r.F, &r.turned, &r.torque, &r.moved};
+    for (int k = 0; k < 4; k++) ck_assert_ptr_nonnull(*arrays[k] = malloc(3 * n * sizeof(double)));
+    return r;
+}
+
+static void free_reading(reading r)
+{
+    free(r.F), free(r.turned), free(r.torque), free(r.moved);
+}
 
 static void *read_it(void *argument)
 {
-    const scene *s = read_by_all;
-    double *F = argument;
+    reading *r = argument;
+    const scene *s = r->s;
+    const nlc_network *n = s->network;
+    const size_t size = 3 * (size_t)s->particles * sizeof *r->F;
     for (int k = 0; k < 20; k++) {
-        memset(F, 0, 3 * (size_t)s->particles * sizeof *F);
-        nlc_assemble(s->network, F, 0, NULL, s->force, s->normal, NULL);
-        nlc_cache_size(s->network);
+        memset(r->F, 0, size), memset(r->turned, 0, size), memset(r->torque, 0, size), memset(r->moved, 0, size);
+        r->status[0] = nlc_assemble(n, r->F, 0, NULL, s->force, s->normal, NULL);
+        r->status[1] = nlc_assemble_turning(n, r->turned, 0, s->force, s->overlap, s->normal, NULL);
+        r->status[2] = nlc_assemble_sliding(n, r->F, 0, r->torque, 0, NULL, s->force, s->normal, r->sliding, NULL, s->overlap, 0.3,
+                                            NULL);
+        r->status[3] = nlc_reach(n, &r->reach, r->moved, s->force, NULL);
+        r->cache_size = nlc_cache_size(n);
     }
     return NULL;
+}
+
+static void compare_readings(const reading *a, const reading *b)
+{
+    const size_t size = 3 * (size_t)a->s->particles * sizeof *a->F;
+    for (int k = 0; k < 4; k++) ck_assert_int_eq(b->status[k], NLC_OK);
+    ck_assert_int_eq(memcmp(a->F, b->F, size), 0);
+    ck_assert_int_eq(memcmp(a->turned, b->turned, size), 0);
+    ck_assert_int_eq(memcmp(a->torque, b->torque, size), 0);
+    ck_assert_int_eq(memcmp(a->moved, b->moved, size), 0);
+    nlc_assert_same(a->reach, b->reach);
+    ck_assert_uint_eq(a->cache_size, b->cache_size);
 }
 
 START_TEST(one_network_read_by_many)
@@ -236,20 +276,24 @@ START_TEST(one_network_read_by_many)
     rng g = {6};
     scene s;
     pthread_t thread[4];
-    double *F[4];
+    reading r[5]; /* the last one by nobody else */
     scene_init(&s);
+    s.options.model = models[_i];
     scene_lattice(&s, BODY_CENTRED, 4, 1, 0.3, 0.02, 1e-3, &g);
     ck_assert_int_eq(scene_solve(&s, NULL), NLC_OK);
-    read_by_all = &s;
-    for (int t = 0; t < 4; t++) {
-        F[t] = malloc(3 * (size_t)s.particles * sizeof *F[t]);
-        ck_assert_int_eq(pthread_create(&thread[t], NULL, read_it, F[t]), 0);
+    double *sliding = room(&s, 3);
+    for (int64_t c = 0; c < s.contacts; c++) { /* across the normal */
+        const double *v = s.normal + 3 * c, across = sqrt(v[0] * v[0] + v[1] * v[1]);
+        if (across > 0.1) sliding[3 * c] = -v[1] / across, sliding[3 * c + 1] = v[0] / across;
     }
-    for (int t = 0; t < 4; t++) {
-        ck_assert_int_eq(pthread_join(thread[t], NULL), 0);
-        ck_assert_int_eq(memcmp(F[0], F[t], 3 * (size_t)s.particles * sizeof *F[t]), 0);
-    }
-    for (int t = 0; t < 4; t++) free(F[t]);
+    for (int t = 0; t < 5; t++) r[t] = new_reading(&s, sliding);
+    read_it(&r[4]);
+    for (int t = 0; t < 4; t++) ck_assert_int_eq(pthread_create(&thread[t], NULL, read_it, &r[t]), 0);
+    for (int t = 0; t < 4; t++) ck_assert_int_eq(pthread_join(thread[t], NULL), 0);
+    for (int t = 0; t < 4; t++) compare_readings(&r[4], &r[t]);
+    ck_assert(r[4].reach > 0);
+    for (int t = 0; t < 5; t++) free_reading(r[t]);
+    free(sliding);
     scene_free(&s);
 }
 END_TEST
@@ -262,7 +306,7 @@ int main(void)
     tcase_add_test(t, weakened_by_many);
     tcase_add_test(t, same_error);
     tcase_add_test(t, networks_of_their_own);
-    tcase_add_test(t, one_network_read_by_many);
+    tcase_add_loop_test(t, one_network_read_by_many, 0, 2);
     time_limit(t, 120);
     suite_add_tcase(suite, t);
     return run_suite(suite);
