@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
  * host.c - a host that does not keep to the rules of floating point: built with -ffast-math (whose start file flushes subnormal
- * numbers to zero), and in every direction of rounding.
+ * numbers to zero), in every direction of rounding, and with floating-point traps on in all of them.
  *
  * What is demanded: NaN and infinity among the arguments are still found; the mode is as it was after every call; forces agree with
  * those of the usual mode to the tolerance asked for; and results of the usual mode have the same bits afterwards.
  * Numbers are looked at as bits only: this file's own comparisons with NaN may be optimised away.
  */
+#define _GNU_SOURCE
 #include <fenv.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -53,8 +54,53 @@ static unsigned mode_now(void)
     unsigned bits = (unsigned)fegetround();
 #if defined(__SSE2__)
     bits ^= (_mm_getcsr() & 0xffc0u) << 16;
+#elif defined(__aarch64__)
+    uint64_t control;
+    __asm__ volatile("mrs %0, fpcr" : "=r"(control));
+    bits ^= (unsigned)control;
 #endif
     return bits;
+}
+
+/* Flush results to zero, take small arguments for zero: as far as the processor has such a mode.  False: it has none. */
+static int flush(unsigned flags)
+{
+#if defined(__SSE2__)
+    _mm_setcsr((_mm_getcsr() & ~0x8040u) | (flags & 1 ? 0x8000u : 0) | (flags & 2 ? 0x40u : 0));
+    return 1;
+#elif defined(__aarch64__)
+    uint64_t control;
+    __asm__ volatile("mrs %0, fpcr" : "=r"(control));
+    control = (control & ~(UINT64_C(1) << 24)) | (uint64_t)(flags & 1) << 24;
+    __asm__ volatile("msr fpcr, %0" : : "r"(control));
+    return 1;
+#else
+    return flags == 0;
+#endif
+}
+
+/* What flush() would have to be given for what is now. */
+static unsigned flushed(void)
+{
+#if defined(__SSE2__)
+    const unsigned now = _mm_getcsr();
+    return (now & 0x8000u ? 1 : 0) | (now & 0x40u ? 2 : 0);
+#elif defined(__aarch64__)
+    return mode_now() >> 24 & 1;
+#else
+    return 0;
+#endif
+}
+
+/* Invalid, overflow and division by zero end the program.  False: not here. */
+static int trap(void)
+{
+#if defined(__GLIBC__) && defined(__x86_64__)
+    feclearexcept(FE_ALL_EXCEPT);
+    return feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW) != -1;
+#else
+    return 0;
+#endif
 }
 
 typedef struct results {
@@ -143,6 +189,7 @@ static void compare(const results *a, const results *b, const char *mode)
 int main(void)
 {
     const results usual = compute("as the host starts");
+    const unsigned at_start = flushed();
     static const struct {
         int mode;
         const char *name;
@@ -158,30 +205,20 @@ int main(void)
 #endif
         {FE_TONEAREST, "rounding to nearest"},
     };
-    const int count = (int)(sizeof modes / sizeof *modes);
-    for (int k = 0; k < count; k++) {
-        if (fesetround(modes[k].mode) != 0) continue;
-        const results r = compute(modes[k].name);
-        fesetround(FE_TONEAREST);
-        compare(&usual, &r, modes[k].name);
-    }
-#if defined(__SSE2__)
-    for (unsigned flags = 0; flags < 4; flags++) { /* flush to zero, denormals are zero */
-        const unsigned before = _mm_getcsr();
-        _mm_setcsr((before & ~0x8040u) | (flags & 1 ? 0x8000u : 0) | (flags & 2 ? 0x40u : 0));
-        const results r = compute("flushing to zero");
-        _mm_setcsr(before);
-        compare(&usual, &r, "flushing to zero");
-    }
-#endif
+    const int count = (int)(sizeof modes / sizeof *modes), traps = trap();
+    int directions = 0, flushing = 0;
+    for (int k = 0; k < count; k++)
+        for (unsigned flags = 0; flags < 4; flags++) {
+            if (fesetround(modes[k].mode) != 0 || !flush(flags)) continue;
+            const results r = compute(modes[k].name);
+            fesetround(FE_TONEAREST);
+            flush(at_start);
+            compare(&usual, &r, modes[k].name);
+            directions += flags == 0;
+            flushing += flags > 0;
+        }
     const results again = compute("at the end");
     demand(memcmp(&usual.force, &again.force, sizeof usual.force) == 0, "other bits", "at the end");
-    printf("host: %d directions of rounding%s: ok\n", count,
-#if defined(__SSE2__)
-           ", flushing to zero"
-#else
-           ""
-#endif
-    );
+    printf("host: %d directions of rounding%s%s: ok\n", directions, flushing ? ", each flushing to zero, too" : "", traps ? ", traps on" : "");
     return 0;
 }
