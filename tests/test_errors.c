@@ -313,6 +313,8 @@ START_TEST(arrays_over_contacts)
     keep();
     demand(nlc_assemble(f.s.network, f.F, 8, 0, f.force, f.s.normal, &f.info), NLC_ERROR_STRIDE, 2);
     demand(nlc_assemble(f.s.network, f.F, PTRDIFF_MAX, 0, f.force, f.s.normal, &f.info), NLC_ERROR_STRIDE, 2);
+    demand(nlc_assemble(f.s.network, f.F, PTRDIFF_MAX / 2, 0, f.force, f.s.normal, &f.info), NLC_ERROR_STRIDE, 2); /* the third one's */
+    demand(nlc_assemble(f.s.network, f.F, PTRDIFF_MIN / 2, 0, f.force, f.s.normal, &f.info), NLC_ERROR_STRIDE, 2);
 }
 END_TEST
 

@@ -239,7 +239,12 @@ START_TEST(without_friction)
     slide k;
     die(&k, 5);
     double *F = calloc(3 * (size_t)k.s.particles, sizeof *F), wall[18] = {0};
-    ck_assert_int_eq(nlc_assemble(k.s.network, F, 0, wall, k.s.force, k.s.normal, 0), NLC_OK);
+    nlc_info info = {.struct_size = sizeof info};
+    int64_t active = 0;
+    k.s.force[0] = 0;
+    for (int64_t c = 0; c < k.s.contacts; c++) active += k.s.force[c] > 0;
+    ck_assert_int_eq(nlc_assemble(k.s.network, F, 0, wall, k.s.force, k.s.normal, &info), NLC_OK);
+    ck_assert_int_eq(info.active, active);
     for (int a = 0; a < 2; a++) {
         if (a) memset(k.sliding, 0, 3 * (size_t)k.s.contacts * sizeof(double));
         memset(k.F, 0, 3 * (size_t)k.s.particles * sizeof(double));
