@@ -227,7 +227,8 @@ START_TEST(options)
         WITH(f.options.prefactor, bad[b], init(), NLC_ERROR_OPTION, offsetof(nlc_options, prefactor));
     }
     WITH(f.options.max_sweeps, -1, init(), NLC_ERROR_OPTION, offsetof(nlc_options, max_sweeps));
-    WITH(f.options.simd, 77, init(), NLC_ERROR_OPTION, offsetof(nlc_options, simd));
+    const int32_t bad_simd[] = {-1, NLC_SIMD_NEON + 1, 77, INT32_MIN};
+    for (int b = 0; b < 4; b++) WITH(f.options.simd, bad_simd[b], init(), NLC_ERROR_OPTION, offsetof(nlc_options, simd));
     WITH(f.options.points, 2, init(), NLC_ERROR_OPTION, offsetof(nlc_options, points));
     f.options.model = NLC_MODEL_HALF_SPACE;
     WITH(f.options.prefactor, 1e305, init(), NLC_ERROR_RANGE, -1);
@@ -537,6 +538,9 @@ START_TEST(prediction)
     WITH(f.nonlocal[3], 1, nlc_predict(f.nonlocal, previous, 5, 1e308, &f.info), NLC_ERROR_RANGE, -1);
     WITH(f.nonlocal[3], NAN, nlc_predict(f.nonlocal, previous, 5, 1, &f.info), NLC_ERROR_NONLOCAL, 3);
     WITH(f.nonlocal[3], 1e308, nlc_predict(f.nonlocal, previous, 5, 1, &f.info), NLC_ERROR_RANGE, -1);
+    previous[2] = 1e308;
+    keep();
+    demand(nlc_predict(f.nonlocal, previous, 5, 1, &f.info), NLC_ERROR_RANGE, -1);
     previous[2] = INFINITY;
     keep();
     demand(nlc_predict(f.nonlocal, previous, 5, 1, &f.info), NLC_ERROR_NONLOCAL, 2);

@@ -564,6 +564,15 @@ static void compare_carried(int64_t n, int64_t m, uint64_t keys, uint64_t seed)
     for (size_t k = size / 8; k < sizeof memory / 8; k++) ck_assert(memory[k] == UINT64_C(0xa5a5a5a5a5a5a5a5));
 }
 
+START_TEST(predicted_from_two_steps)
+{
+    double nonlocal[3] = {1, 2, -4}, previous[3] = {0.5, 2, -3};
+    nlc_assert_quiet(ck_assert_int_eq(nlc_predict(nonlocal, previous, 3, 0.5, 0), NLC_OK));
+    ck_assert(nonlocal[0] == 1.25 && nonlocal[1] == 2 && nonlocal[2] == -4.5);
+    ck_assert(previous[0] == 1 && previous[1] == 2 && previous[2] == -4);
+}
+END_TEST
+
 START_TEST(carried_by_key)
 {
     for (uint64_t seed = 1; seed <= 400; seed++) {
@@ -670,6 +679,7 @@ int main(void)
     tcase_add_loop_test(t, reach_bounds_open_contacts, 0, 6);
     tcase_add_test(t, reach_of_the_sphere);
     tcase_add_loop_test(t, reach_is_enough, 0, 6);
+    tcase_add_test(t, predicted_from_two_steps);
     tcase_add_test(t, carried_by_key);
     tcase_add_loop_test(t, updated_network_is_as_new, 0, 6);
     tcase_add_test(t, update_finds_clusters_anew);

@@ -275,6 +275,32 @@ START_TEST(infos_of_any_size_are_filled)
 }
 END_TEST
 
+/* Materials are rows of the caller's size: what a later version has added to them has to be zero in those that are in use. */
+START_TEST(larger_materials)
+{
+    enum { ROWS = 3, MOST = 40 };
+    static unsigned char bytes[ROWS * MOST];
+    const outcome expected = init(&particles, NULL);
+    for (size_t size = sizeof(nlc_material); size <= MOST; size += 8) {
+        nlc_particles p = particles;
+        p.materials = (const nlc_material *)(void *)bytes;
+        p.material_size = size;
+        memset(bytes, 0, sizeof bytes);
+        for (int m = 0; m < ROWS; m++) memcpy(bytes + (size_t)m * size, &materials[m], sizeof(nlc_material));
+        const outcome found = init(&p, NULL);
+        ck_assert_msg(memcmp(&found, &expected, sizeof found) == 0, "rows of %zu bytes: %s", size, nlc_strerror(found.status));
+        for (int m = 0; m < ROWS; m++)
+            for (size_t b = sizeof(nlc_material); b < size; b++) {
+                bytes[(size_t)m * size + b] = b % 2 ? 1 : 0x80;
+                const outcome wrong = init(&p, NULL);
+                ck_assert_msg(wrong.status == NLC_ERROR_RESERVED && wrong.culprit == m, "byte %zu of row %d: %s, culprit %d", b, m,
+                              nlc_strerror(wrong.status), (int)wrong.culprit);
+                bytes[(size_t)m * size + b] = 0;
+            }
+    }
+}
+END_TEST
+
 int main(void)
 {
     Suite *s = suite_create("structs");
@@ -284,6 +310,7 @@ int main(void)
     tcase_add_loop_test(t, surplus_bytes_are_zero, 0, KINDS);
     tcase_add_loop_test(t, no_struct_is_of_these_sizes, 0, KINDS);
     tcase_add_loop_test(t, infos_of_any_size_are_filled, 0, 2);
+    tcase_add_test(t, larger_materials);
     suite_add_tcase(s, t);
     return run_suite(s);
 }

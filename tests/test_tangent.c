@@ -100,8 +100,11 @@ START_TEST(no_energy_without_a_solution)
     scene s;
     make(&s, 1);
     double e = 77;
+    nlc_info info = {.struct_size = sizeof info};
     s.force[0] *= 1 + 1e-6;
-    ck_assert_int_eq(nlc_energy(s.network, &e, s.force, s.overlap, s.normal, 0), NLC_WARNING_NOT_CONVERGED);
+    ck_assert_int_eq(nlc_energy(s.network, &e, s.force, s.overlap, s.normal, &info), NLC_WARNING_NOT_CONVERGED);
+    ck_assert_int_eq(info.worst_contact, 0); /* the force itself; others miss what it moves */
+    ck_assert(info.residual > 1e-7 && info.residual < 1e-5);
     scene_free(&s);
     scene_init(&s); /* weakened */
     scene_cell(&s, SIMPLE_CUBIC, 1, 1, 0.5, (const double[]){0.8, 0.8, 0.8});
