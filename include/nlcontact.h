@@ -765,7 +765,7 @@ NLC_API size_t nlc_cache_size(const nlc_network *network);
  * residual, the bounds of lambda and the counts in info are those of the whole; an index in info is told by the rank
  * that has it, and is -1 on the others.  The callback exchange is called once a sweep, and besides to begin, to judge and to end:
  *     4 times in all for a start that is the solution already, else up to 12 times more than there are sweeps;
- *     up to 17 times more each time that lambda near 1 has to be bounded closely;
+ *     up to 17 times more each time that lambda has to be bounded closely: near 1, and on particles with more than 64 contacts;
  *     20 times a sweep where the coupling is weakened; twice a sweep by NLC_METHOD_FIXED_POINT.
  *
  * Returns NLC_OK; NLC_WARNING_NOT_CONVERGED, _WEAKENED, _ROUNDING, _CLOSE, or several of them added;
@@ -917,6 +917,8 @@ NLC_API nlc_status nlc_assemble(const nlc_network *network, double *NLC_RESTRICT
  * normal     [contacts][3] as for nlc_solve
  * info       or NULL
  * Contacts with walls and of a particle with itself (i = j) do not turn.  The sum of what is added is 0.
+ * On ranks each adds what the energies of the particles that it owns do, to ghosts as well: what those have got is to be sent to
+ * their owners and added there.
  * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _NO_POTENTIAL, _STRIDE, _FORCE, _NORMAL, _TOTAL_FORCE, _OVERLAP (or one of
  * R_i + R_j and more), _COINCIDENT (directions within 2^-50), _RANGE.
  */

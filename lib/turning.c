@@ -73,10 +73,10 @@ static bool is_loaded(const turning *s, int64_t e)
     for (int64_t p_##e = s->n->start[k], e = 0; p_##e < s->n->start[(k) + 1]; p_##e++) \
         if (is_loaded(s, e = s->n->entry[p_##e]))
 
-/* The later one of two contacts in the same direction, of all particles, or -1. */
+/* The later one of two contacts in the same direction, of all particles that are owned here, or -1. */
 static int64_t find_coincident(const turning *s)
 {
-    for (int64_t k = 0; k < s->n->particle_count; k++) {
+    for (int64_t k = 0; k < s->n->owned; k++) {
         if (s->n->scale[k] <= 0) continue;
         EACH_LOADED(e, k)
         {
@@ -109,10 +109,10 @@ static void pull_on(const turning *s, int64_t e, int64_t k, double pull[3])
     for (int x = 0; x < 3; x++) pull[x] = a.force * (sum[x] - along * a.out[x]);
 }
 
-/* -dE/dx: on the other end 2 U P (...) / distance, and the opposite on the particle itself. */
+/* -dE/dx: on the other end 2 U P (...) / distance, and the opposite on the particle itself.  Ghosts' energies are other ranks'. */
 static void add_forces(const turning *s, const nlc_body_forces *F)
 {
-    for (int64_t k = 0; k < s->n->particle_count; k++) {
+    for (int64_t k = 0; k < s->n->owned; k++) {
         const nlc_scaled U = nlc_split(s->n->scale[k]);
         if (s->n->scale[k] <= 0) continue;
         EACH_LOADED(e, k)

@@ -141,6 +141,7 @@ static void make_rank(rank *r, const int *owner, rng *g)
     r->displacement = room(2 * r->s.contacts, sizeof *r->displacement);
     r->change = room(r->s.contacts, sizeof *r->change);
     r->stiffness = room(r->s.particles, sizeof *r->stiffness);
+    r->turning = room(3 * r->s.particles, sizeof *r->turning);
     free(place);
 }
 
@@ -169,7 +170,7 @@ void ranks_free(ranks *w)
         rank *r = &w->rank[q];
         scene_free(&r->s);
         free(r->particle), free(r->contact), free(r->swapped), free(r->peer), free(r->there);
-        free(r->displacement), free(r->change), free(r->stiffness);
+        free(r->displacement), free(r->change), free(r->stiffness), free(r->turning);
     }
     free(w->rank);
     pthread_barrier_destroy(&w->barrier);
@@ -242,6 +243,15 @@ void rank_tangent_bound(rank *r)
     scene *s = &r->s;
     r->info.struct_size = sizeof r->info;
     r->status = nlc_tangent_bound(s->network, r->stiffness, s->force, s->normal, &r->info);
+}
+
+/* No callback is called. */
+void rank_turning(rank *r)
+{
+    scene *s = &r->s;
+    if (s->particles > 0) memset(r->turning, 0, 3 * (size_t)s->particles * sizeof *r->turning);
+    r->info.struct_size = sizeof r->info;
+    r->status = nlc_assemble_turning(s->network, r->turning, 0, s->force, s->overlap, s->normal, &r->info);
 }
 
 int64_t rank_calls(const rank *r)

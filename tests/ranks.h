@@ -32,6 +32,7 @@ typedef struct rank {
     int64_t exchanges, sums, maxima; /* calls */
     int64_t fail_at; /* number of the call that fails here, from 1; 0: none */
     double *displacement, *change, *stiffness, energy; /* other results: [2 contacts], [contacts], [particles] */
+    double *turning; /* [particles][3], ghosts' too */
     void (*task)(struct rank *);
     pthread_t thread;
 } rank;
@@ -58,6 +59,7 @@ void rank_energy(rank *r);
 void rank_tangent(rank *r);
 void rank_tangent_inverse(rank *r);
 void rank_tangent_bound(rank *r);
+void rank_turning(rank *r);
 
 /* Calls of the callbacks in the last task. */
 int64_t rank_calls(const rank *r);

@@ -100,6 +100,15 @@ static void solve_both(scene *s, ranks *w, nlc_status *status, nlc_info *info)
     agree(w);
 }
 
+static int64_t most_contacts(const scene *s)
+{
+    int64_t most = 0, *count = calloc((size_t)(s->particles + s->walls), sizeof *count);
+    for (int64_t c = 0; c < s->contacts; c++) count[s->i[c]]++, count[s->j[c]]++;
+    for (int64_t k = 0; k < s->particles; k++) most = count[k] > most ? count[k] : most;
+    free(count);
+    return most;
+}
+
 /*
  * Tolerance 1e-13 unless said otherwise, which makes both differ by 2e-13 of the forces nearby and by what rounding makes of 1/(1 - lambda).  Whether
  * that counts as NLC_WARNING_ROUNDING may differ.
@@ -132,7 +141,7 @@ static void compare(scene *s, int count, int how, double allowed, rng *g, const 
     ck_assert_int_le(sweeps, info.sweeps + 3 + info.sweeps / 5);
     if (s->options.method == NLC_METHOD_FIXED_POINT) ck_assert_int_le(more, sweeps + 2);
     else if (status & NLC_WARNING_WEAKENED) ck_assert_int_le(more, 20 * sweeps);
-    else ck_assert_int_le(more, first->info.lambda_lower < 0.7 ? 12 : 12 + 2 * 17);
+    else ck_assert_int_le(more, first->info.lambda_lower < 0.7 && most_contacts(s) <= 64 ? 12 : 12 + 2 * 17);
     ranks_free(&w);
 }
 
@@ -610,6 +619,175 @@ START_TEST(steps)
 }
 END_TEST
 
+/* ---- where several ranks meet */
+
+enum { SIDE = 5, BLOCK = SIDE * SIDE * SIDE }; /* the middle layers are on the boundaries between ranks */
+
+/* A face-centred crystal out of order, and all pairs with a gap below a tenth of a diameter. */
+static void scene_block(scene *s, double (*x)[3], rng *g)
+{
+    const int32_t soft = scene_material(s, 1e9, 0.3), hard = scene_material(s, 3e9, 0.2);
+    for (int k = 0; k < BLOCK; k++) {
+        const int at[3] = {k % SIDE, k / SIDE % SIDE, k / SIDE / SIDE};
+        for (int d = 0; d < 3; d++) x[k][d] = (d < 2 ? 1.4 * (at[d] + 0.5 * (at[2] % 2)) : at[d]) + rng_uniform(g, -0.02, 0.02);
+        scene_particle(s, rng_uniform(g, 0.7, 0.73), k % 3 ? soft : hard);
+    }
+    for (int32_t i = 0; i < BLOCK; i++)
+        for (int32_t j = i + 1; j < BLOCK; j++) {
+            const double v[3] = {x[j][0] - x[i][0], x[j][1] - x[i][1], x[j][2] - x[i][2]};
+            const double overlap = s->radius[i] + s->radius[j] - sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+            if (overlap > -0.15) scene_contact(s, i, j, overlap, v[0], v[1], v[2]);
+        }
+}
+
+/* Domains: slabs; a slab beside two that share the rest, so that three meet along a line; four along a line; eight at a point. */
+static int domain(const double *x, int count)
+{
+    const int a = x[0] > 3, b = x[1] > 3, c = x[2] > 2.5;
+    return count == 2 ? a : count == 3 ? (a ? 1 + b : 0) : count == 4 ? 2 * a + b : 4 * a + 2 * b + c;
+}
+
+/* Ranks on which particle k is a ghost with a force between it and one of theirs: bits. */
+static unsigned ghost_on(const scene *s, const int *owner, int32_t k)
+{
+    unsigned bits = 0;
+    for (int64_t c = 0; c < s->contacts; c++)
+        if (s->force[c] > 0 && (s->i[c] == k || s->j[c] == k)) bits |= 1u << owner[s->i[c] == k ? s->j[c] : s->i[c]];
+    return bits & ~(1u << owner[k]);
+}
+
+static int ones(unsigned bits)
+{
+    int n = 0;
+    for (; bits; bits &= bits - 1) n++;
+    return n;
+}
+
+/* Particles that are ghosts of n other ranks; contacts of two ranks that a third one sees whole, both its ends being ghosts there. */
+static void count_corners(const scene *s, const int *owner, int particles[9], int *seen)
+{
+    unsigned on[BLOCK];
+    for (int n = 0; n < 9; n++) particles[n] = 0;
+    *seen = 0;
+    for (int32_t k = 0; k < BLOCK; k++) particles[ones(on[k] = ghost_on(s, owner, k))]++;
+    for (int64_t c = 0; c < s->contacts; c++)
+        *seen += s->force[c] > 0 && owner[s->i[c]] != owner[s->j[c]] && (on[s->i[c]] & on[s->j[c]]);
+}
+
+/* What turning adds, of all ranks on each particle. */
+static double turning_difference(const ranks *w, const double *whole)
+{
+    double *sum = calloc(3 * BLOCK, sizeof *sum), worst = 0, top = 0;
+    for (int q = 0; q < w->count; q++)
+        for (int64_t e = 0; e < 3 * w->rank[q].s.particles; e++) sum[3 * w->rank[q].particle[e / 3] + e % 3] += w->rank[q].turning[e];
+    for (int e = 0; e < 3 * BLOCK; e++) {
+        worst = fmax(worst, fabs(sum[e] - whole[e]));
+        top = fmax(top, fabs(whole[e]));
+    }
+    ck_assert(top > 0);
+    free(sum);
+    return worst / top;
+}
+
+/* The same forces where particles are ghosts of two, three and seven other ranks. */
+START_TEST(corners)
+{
+    static const int domains[] = {2, 3, 4, 8};
+    for (int k = 0; k < 4; k++) {
+        rng g = {(uint64_t)_i + 30};
+        char label[80];
+        scene s;
+        ranks w;
+        double x[BLOCK][3];
+        int owner[BLOCK], particles[9], seen, several = 0;
+        scene_init(&s);
+        choose(&s, _i);
+        s.options.tolerance = 1e-13;
+        scene_block(&s, x, &g);
+        for (int p = 0; p < BLOCK; p++) owner[p] = domain(x[p], domains[k]);
+        ranks_init(&w, &s, owner, domains[k], &g);
+        ranks_run(&w, rank_build);
+        nlc_info info;
+        nlc_status status;
+        solve_both(&s, &w, &status, &info);
+        count_corners(&s, owner, particles, &seen);
+        for (int n = 2; n < 9; n++) several += particles[n];
+        const double d = difference(&w, s.force, forces);
+        snprintf(label, sizeof label, "model %d, %d domains", _i, domains[k]);
+        if (verbose())
+            printf("%s: status %d %d, ghosts of 1, 2, 3, more ranks %d %d %d %d, contacts that a third one sees %d, difference %.1e\n", label, status,
+                   w.rank[0].status, particles[1], particles[2], particles[3], several - particles[2] - particles[3], seen, d);
+        ck_assert_int_eq((status | w.rank[0].status) & ~(NLC_WARNING_ROUNDING | NLC_WARNING_CLOSE), NLC_OK);
+        ck_assert_int_ge(particles[1], 10);
+        ck_assert(k == 0 ? several == 0 && seen == 0 : several >= 3 && seen >= 3);
+        ck_assert(k < 2 || particles[3] >= 1);
+        ck_assert(k < 3 || several > particles[2] + particles[3]);
+        ck_assert_msg(d <= 1e-12, "%s: forces differ by %g", label, d);
+        if (has_energy(&s) && s.options.model != NLC_MODEL_HERTZ) {
+            double F[3 * BLOCK] = {0};
+            ck_assert_int_eq(nlc_assemble_turning(s.network, F, 0, s.force, s.overlap, s.normal, 0), NLC_OK);
+            for (int q = 0; q < w.count; q++)
+                for (int64_t c = 0; c < w.rank[q].s.contacts; c++) w.rank[q].s.force[c] = s.force[w.rank[q].contact[c]];
+            ranks_run(&w, rank_turning);
+            for (int q = 0; q < w.count; q++) ck_assert_int_eq(w.rank[q].status, NLC_OK);
+            const double t = turning_difference(&w, F);
+            ck_assert_msg(t <= 1e-13, "%s: turning differs by %g", label, t); /* the same sums in another order */
+        }
+        ranks_free(&w);
+        scene_free(&s);
+    }
+}
+END_TEST
+
+/* ---- particles with very many contacts */
+
+/* Two large spheres with count small ones on each, pairs of which touch; and the large ones each other. */
+static void scene_crowd(scene *s, int count, rng *g)
+{
+    const int32_t soft = scene_material(s, 1e9, 0.3), hard = scene_material(s, 4e9, 0.45);
+    const double spacing = sqrt(12.566 / count);
+    const int32_t large[2] = {scene_particle(s, 1, soft), scene_particle(s, 1.1, soft)};
+    scene_contact(s, large[0], large[1], 1e-3 * spacing, 0, 0, 1);
+    for (int b = 0; b < 2; b++)
+        for (int c = 0; c < count; c++) {
+            const double z = 1 - (2 * c + 1.0) / count, turn = c * 3.14159265358979 * (3 - sqrt(5)), r = sqrt(1 - z * z);
+            const double up = b ? -z : z; /* the nearest one of each is some spacing away from the other large sphere */
+            if (c == 0) continue;
+            const int32_t small = scene_particle(s, 0.4 * spacing, hard);
+            scene_contact(s, large[b], small, 0.4 * spacing * rng_uniform(g, 1e-3, 3e-2), r * cos(turn), r * sin(turn), up);
+            if (c % 2 && c > 1) scene_contact(s, small - 1, small, 0.4 * spacing * rng_uniform(g, -1e-3, 1e-2), -sin(turn), cos(turn), 0.3);
+        }
+}
+
+/*
+ * On 1 to 4 ranks, the large ones on different ones.  At a tolerance of 1e-2, and always in SPHERE, groups of contacts are
+ * interpolated: by their places, not by their order, so that the ranks' are those of the whole.  Solved to a tolerance forces may
+ * differ by twice that; found is 1e-15, since the steps of both are the same.
+ */
+START_TEST(crowds)
+{
+    static const struct {
+        int32_t model;
+        int count;
+        double tolerance;
+    } row[] = {{NLC_MODEL_GONZALEZ_CUITINO, 200, 1e-13}, {NLC_MODEL_GONZALEZ_CUITINO, 2100, 1e-2},
+               {NLC_MODEL_SPHERE, 140, 1e-13},           {NLC_MODEL_SPHERE, 180, 1e-6},
+               {NLC_MODEL_POINT_FORCE, 200, 1e-13},      {NLC_MODEL_POINT_FORCE, 2100, 1e-2}};
+    rng g = {(uint64_t)_i + 50};
+    for (int count = 1; count <= 4; count++) {
+        char label[80];
+        scene s;
+        scene_init(&s);
+        s.options.model = row[_i].model;
+        s.options.tolerance = row[_i].tolerance;
+        scene_crowd(&s, row[_i].count, &g);
+        snprintf(label, sizeof label, "crowd, model %d, tolerance %g", row[_i].model, row[_i].tolerance);
+        compare(&s, count, count % 2, 1e-12, &g, label);
+        scene_free(&s);
+    }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("ghosts");
@@ -621,6 +799,12 @@ int main(void)
     tcase_add_loop_test(t, beyond_the_end, 0, MODELS);
     tcase_add_loop_test(t, other_functions, 0, MODELS);
     tcase_add_loop_test(t, steps, 0, MODELS);
+    suite_add_tcase(suite, t);
+    t = tcase_create("places");
+    tcase_add_checked_fixture(t, fp_trap, fp_untrap);
+    time_limit(t, 120);
+    tcase_add_loop_test(t, corners, 0, MODELS);
+    tcase_add_loop_test(t, crowds, 0, 6);
     suite_add_tcase(suite, t);
     t = tcase_create("errors");
     tcase_add_checked_fixture(t, fp_trap, fp_untrap);
