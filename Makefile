@@ -189,7 +189,7 @@ EXAMPLES += $(B)/examples/nlc-lammps
 endif
 $(B)/examples/lammps/%.o: $(S)/examples/lammps/%.c
 	@mkdir -p $(@D)
-	$(CC) $(DEPFLAGS) $(ALL_CPPFLAGS) -D_POSIX_C_SOURCE=200809L $(call LAMMPS_PKG,cflags) $(ALL_CFLAGS) -c $< -o $@
+	$(CC) $(DEPFLAGS) $(ALL_CPPFLAGS) -D_POSIX_C_SOURCE=200809L $(call LAMMPS_PKG,cflags) -fno-math-errno $(ALL_CFLAGS) -c $< -o $@
 $(B)/examples/nlc-lammps: $(LAMMPS_SRC:$(S)/%.c=$(B)/%.o) $(STATIC)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(call LAMMPS_PKG,libs) $(LIBS)
 -include $(wildcard $(B)/examples/lammps/*.d)

@@ -75,6 +75,16 @@ run in.packing each "-var data a_mono1000_periodic.data -var periodic 1 -var ste
 near "interval, sum of forces" "$(thermo interval 102 10)" "$(thermo each 102 10)" 1e-4
 [ "$(thermo interval 102 6) $(thermo each 102 6)" != "0 0" ] && [ "$(thermo interval 102 6)" = 0 ] || fail "nothing is extrapolated"
 
+# With nlc_turning the forces are all of -dE/dx, and LAMMPS' nve keeps kinetic energy plus that of the network to the second order of
+# the time step: with half of it a quarter is missing.  Along the normals alone it does not.
+change() { awk '/^ *Step/ { on = 1; next } /^Loop/ { on = 0 } on { if (!n++) first = $4; last = $4; ke = $2 } END { printf "%.9g", (last - first) / ke }' "$tmp/$1.log"; }
+mono="-var data a_mono1000_periodic.data -var periodic 1"
+run in.packing turning "$mono -var steps 50 -var dt 1e-6 -var nlc_turning 1"
+run in.packing finer "$mono -var steps 100 -var dt 5e-7 -var nlc_turning 1"
+run in.packing normals "$mono -var steps 100 -var dt 5e-7"
+awk -v a="$(change turning)" -v b="$(change finer)" -v c="$(change normals)" 'BEGIN { r = a / b; exit !(r > 3.6 && r < 4.4 && b * b < 1e-6 && c * c > 9 * b * b) }' ||
+    fail "energy with turning changes by $(change turning), $(change finer) with half the time step, $(change normals) without"
+
 # A grain between two plates with two neighbours.  One, 50 degrees from the pole, overlaps, and its contact is drawn open: LAMMPS
 # adds Hertz' force and the callback takes it away.  The other one, at the equator, does not touch, and is pushed.
 cat >"$tmp/three.data" <<EOF
@@ -120,6 +130,18 @@ same_forces() {
         END { if (!(n[1] > 0 && n[1] == n[2] && worst <= 1e-12 * most)) { print worst, most; exit 1 } }' "$tmp/$1.dump" "$tmp/$2.dump" >"$tmp/log" ||
         fail "forces of $1 and $2 differ by, of: $(cat "$tmp/log")"
 }
+# Who owns what is in the dump's last column.  Particles under load with neighbours on two other ranks or more, so that they are ghosts
+# on these; contacts of two ranks, both of whose ends are ghosts of a third one; and particles that have another owner at the end.
+meetings() {
+    awk -F'[ ,]' '
+        FNR == 1 { file++ }
+        file == 1 && FNR > 9 { owner[$1] = $12 }
+        file == 2 && FNR > 1 && $2 > 0 && $4 > 0 && owner[$1] != owner[$2] { i[++n] = $1; j[n] = $2; on[$1, owner[$2]] = 1; on[$2, owner[$1]] = 1 }
+        file == 3 && FNR > 9 { moved += owner[$1] != $12 }
+        END { for (k in owner) { m = on[k, 0] + on[k, 1] + on[k, 2] + on[k, 3]; several += m > 1; three += m > 2 }
+              for (c = 1; c <= n; c++) for (r = 0; r < 4; r++) if (on[i[c], r] && on[j[c], r]) { seen++; break }
+              print n + 0, several + 0, three + 0, seen + 0, moved + 0 }' "$tmp/$1.0.dump" "$tmp/$1.0.csv" "$tmp/$1.100.dump"
+}
 sweeps() { sed -n 's/^nlc: .* \([0-9.]*\) sweeps a step.*/\1/p' "$tmp/$1.out"; }
 if command -v mpirun >/dev/null; then
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 \
@@ -131,6 +153,9 @@ if command -v mpirun >/dev/null; then
         for column in 2 3; do
             near "$n ranks, energy" "$(thermo drift$n 100 $column)" "$(thermo drift1 100 $column)" 1e-9
         done
+        run in.packing turning$n "$mono -var steps 20 -var dt 2e-6 -var nlc_tolerance 1e-13 -var nlc_turning 1"
+        same_forces turning1.0 turning$n.0
+        near "$n ranks, energy with turning" "$(thermo turning$n 20 2)" "$(thermo turning1 20 2)" 1e-9
         near "$n ranks, sweeps" "$(sweeps drift$n)" "$(sweeps drift1)" 0.02 # the start has come along with the particles
         run in.packing walls$n "-var data c_hydrogel514_strain13.data -var young 23300 -var poisson 0.4999 -var nlc_model sphere -var nlc_tolerance 1e-13"
         same_forces walls1.0 walls$n.0
@@ -138,7 +163,10 @@ if command -v mpirun >/dev/null; then
         forces walls$n.0
     done
     under=
-    ranks=', 1, 2 and 4 ranks'
+    set -- $(meetings drift4)
+    [ "$1" -gt 100 ] && [ "$2" -gt 20 ] && [ "$3" -gt 2 ] && [ "$4" -gt 20 ] && [ "$5" -gt 100 ] ||
+        fail "4 ranks: $1 contacts between ranks, $2 particles that meet two others, $3 three, $4 contacts that a third one sees, $5 moved"
+    ranks=", 1, 2 and 4 ranks ($1 contacts between them, $2 particles that meet two others, $3 three, $5 have moved)"
 else
     ranks=' (no mpirun: not looked at on several ranks)'
 fi

@@ -11,7 +11,9 @@ static void share(host *h, const uint64_t *key, ranks_state **state, int64_t *st
 {
     const contacts *c = &h->c;
     const size_t ghosts = (size_t)h->ghosts, count = (size_t)c->count;
-    int32_t *tag = host_room(NULL, ghosts * sizeof *tag), *owner = host_room(NULL, ghosts * sizeof *owner);
+    h->ghost_tag = host_room(h->ghost_tag, ghosts * sizeof *h->ghost_tag);
+    h->ghost_owner = host_room(h->ghost_owner, ghosts * sizeof *h->ghost_owner);
+    int32_t *const tag = h->ghost_tag, *const owner = h->ghost_owner;
     int64_t arrivals, shared = 0, *contact = host_room(NULL, count * sizeof *contact);
     uint64_t *shared_key = host_room(NULL, count * sizeof *shared_key);
     int32_t *shared_owner = host_room(NULL, count * sizeof *shared_owner);
@@ -30,8 +32,6 @@ static void share(host *h, const uint64_t *key, ranks_state **state, int64_t *st
     }
     if (!ranks_plan(&h->ranks, contact, shared_key, shared_owner, shared))
         host_fail("two images of a contact: the box is too narrow");
-    free(tag);
-    free(owner);
     free(contact);
     free(shared_key);
     free(shared_owner);

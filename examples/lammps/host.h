@@ -14,6 +14,7 @@
 #ifndef NLC_LAMMPS_HOST_H
 #define NLC_LAMMPS_HOST_H
 
+#include <math.h>
 #include <mpi.h>
 #define LAMMPS_LIB_MPI
 #include <lammps/library.h>
@@ -32,7 +33,7 @@ typedef struct settings {
     double reach, slack; /* gaps that may close; how far a particle may go before they are looked for anew [m] */
     int64_t interval;    /* steps from one solve to the next */
     int64_t every;       /* steps between outputs that cost something; 0: never */
-    bool predict;
+    bool predict, turning;
     char file[256];         /* of contacts, without step and ending; empty: none */
     nlc_material *material; /* [types + 2] by LAMMPS' type, the walls' behind them */
     int32_t types;
@@ -47,7 +48,7 @@ typedef struct contacts {
     int32_t *i, *j;           /* bodies */
     int32_t *atom_i, *atom_j; /* atoms; walls come after all of them */
     uint64_t *key;            /* both tags, or tag and wall: lasting names */
-    double *stiffness, *overlap, *normal, *force, *hertz, *nonlocal, *previous;
+    double *stiffness, *overlap, *normal, *force, *guess, *nonlocal, *previous;
     nlc_network *network;
     void *memory;
     size_t memory_room;
@@ -76,7 +77,8 @@ typedef struct host {
     settings set;
     snapshot seen;
     int32_t ghosts, bodies;     /* particles owned elsewhere, and all: owned ones, ghosts; walls follow */
-    int32_t *ghost_atom, *type; /* [ghosts] one of LAMMPS' ghosts of it; [bodies] */
+    int32_t *ghost_atom, *ghost_tag, *ghost_owner; /* [ghosts] one of LAMMPS' ghosts of it; its rank */
+    int32_t *type;              /* [bodies] */
     double *radius;             /* [bodies] */
     contacts c;
     totals sum;
@@ -99,6 +101,19 @@ void *host_room(void *old, size_t bytes);
 static inline double host_share(const host *h, int64_t contact)
 {
     return h->c.j[contact] >= h->seen.owned && h->c.j[contact] < h->bodies ? 0.5 : 1;
+}
+
+/* k x^(3/2), without the checks of nlc_hertz_force: where a step does nothing else for a contact these are most of it. */
+static inline double host_law(double k, double x)
+{
+    x = x > 0 ? x : 0;
+    return k * x * sqrt(x);
+}
+
+/* What LAMMPS' pair style and walls add. */
+static inline double host_hertz(const contacts *c, int64_t k)
+{
+    return host_law(c->stiffness[k], c->overlap[k]);
 }
 
 void settings_read(host *h);

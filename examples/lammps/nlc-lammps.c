@@ -111,8 +111,8 @@ static void run(const host *h, const char *path)
 static void release(host *h)
 {
     void *memory[] = {h->c.i,      h->c.j,     h->c.atom_i,   h->c.atom_j, h->c.key,      h->c.stiffness, h->c.overlap,
-                      h->c.normal, h->c.force, h->c.hertz,    h->c.memory, h->c.nonlocal, h->c.previous,  h->set.material,
-                      h->seen.tag, h->seen.x,  h->ghost_atom, h->type,     h->radius};
+                      h->c.normal, h->c.force, h->c.guess,    h->c.memory, h->c.nonlocal, h->c.previous,  h->set.material,
+                      h->seen.tag, h->seen.x,  h->ghost_atom, h->type,     h->radius,   h->ghost_tag, h->ghost_owner};
     for (size_t k = 0; k < sizeof memory / sizeof *memory; k++) free(memory[k]);
     ranks_free(&h->ranks);
 }

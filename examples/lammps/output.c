@@ -62,7 +62,7 @@ static void show_atoms(host *h)
             if (body[side] >= h->seen.owned) continue;
             value[0][body[side]] += c->force[k] > 0;
             value[1][body[side]] += c->force[k];
-            value[2][body[side]] += c->force[k] - c->hertz[k];
+            value[2][body[side]] += host_hertz(c, k);
         }
     }
 }
@@ -103,7 +103,7 @@ static void write_contacts(const host *h, int64_t step)
             if (host_share(h, k) < 1 && j < h->seen.tag[c->atom_i[k]]) continue; /* the other rank writes it */
             if (c->force[k] > 0 || c->overlap[k] > 0)
                 fprintf(file, "%d,%d,%.16g,%.16g,%.16g,%.16g,%.16g,%.16g\n", (int)h->seen.tag[c->atom_i[k]], j, c->overlap[k],
-                        c->force[k], c->force[k] - c->hertz[k], n[0], n[1], n[2]);
+                        c->force[k], host_hertz(c, k), n[0], n[1], n[2]);
         }
         if (fclose(file) != 0) host_fail("%s cannot be written", path);
     }

@@ -20,6 +20,7 @@ void ranks_free(ranks *r)
 {
     void *memory[] = {r->tag, r->peer, r->contact, r->out, r->in, r->request};
     for (size_t k = 0; k < sizeof memory / sizeof *memory; k++) free(memory[k]);
+    tags_free(&r->here);
 }
 
 /* ------------------------------------------------------------------------------------------------------------- owners -- */
@@ -56,11 +57,11 @@ static void ask_homes(const ranks *r, const tags *homes, const int32_t *wanted, 
 }
 
 /* Particles that were owned here and no longer are. */
-static int32_t find_lost(const ranks *r, const tags *here, int32_t *lost)
+static int32_t find_lost(const ranks *r, int32_t *lost)
 {
     int32_t count = 0;
     for (int32_t k = 0; k < r->owned; k++)
-        if (tags_get(here, r->tag[k]) < 0) lost[count++] = r->tag[k];
+        if (tags_get(&r->here, r->tag[k]) < 0) lost[count++] = r->tag[k];
     return count;
 }
 
@@ -81,11 +82,13 @@ static ranks_state *send_states(const ranks *r, const tags *left, const ranks_st
 ranks_state *ranks_find(ranks *r, const int32_t *tag, int32_t owned, const int32_t *ghost_tag, int32_t *ghost_owner,
                         int32_t ghosts, const ranks_state *state, int64_t states, int64_t *arrivals)
 {
-    tags homes = take_reports(r, tag, owned), here = tags_new(owned), left = tags_new(r->owned);
+    tags homes = take_reports(r, tag, owned), left = tags_new(r->owned);
     int32_t *lost = host_room(NULL, (size_t)r->owned * sizeof *lost),
             *owner = host_room(NULL, (size_t)r->owned * sizeof *owner);
-    for (int32_t k = 0; k < owned; k++) tags_put(&here, tag[k], k);
-    const int32_t count = find_lost(r, &here, lost);
+    tags_free(&r->here);
+    r->here = tags_new(owned);
+    for (int32_t k = 0; k < owned; k++) tags_put(&r->here, tag[k], k);
+    const int32_t count = find_lost(r, lost);
     ask_homes(r, &homes, ghost_tag, ghost_owner, ghosts);
     ask_homes(r, &homes, lost, owner, count);
     for (int32_t k = 0; k < count; k++)
@@ -95,7 +98,6 @@ ranks_state *ranks_find(ranks *r, const int32_t *tag, int32_t owned, const int32
     if (owned > 0) memcpy(r->tag, tag, (size_t)owned * sizeof *tag);
     r->owned = owned;
     tags_free(&homes);
-    tags_free(&here);
     tags_free(&left);
     free(lost);
     free(owner);
@@ -143,6 +145,27 @@ bool ranks_plan(ranks *r, const int64_t *contact, const uint64_t *key, const int
     find_peers(r, s, count);
     free(s);
     return unique;
+}
+
+/* ------------------------------------------------------------------------------------------------------------- forces -- */
+
+typedef struct force_on {
+    double F[3];
+    int32_t tag;
+} force_on;
+
+void ranks_return(ranks *r, double *F, const int32_t *ghost_tag, const int32_t *ghost_owner, int32_t ghosts)
+{
+    mail forces = {.size = sizeof(force_on)};
+    int64_t received;
+    for (int32_t k = 0; k < ghosts; k++) {
+        const double *f = F + 3 * ((size_t)r->owned + (size_t)k);
+        mail_post(&forces, &(force_on){{f[0], f[1], f[2]}, ghost_tag[k]}, ghost_owner[k]);
+    }
+    force_on *got = mail_deliver(&forces, r->world, &received);
+    for (int64_t k = 0; k < received; k++)
+        for (int x = 0; x < 3; x++) F[3 * (size_t)tags_get(&r->here, got[k].tag) + (size_t)x] += got[k].F[x];
+    free(got);
 }
 
 /* ---------------------------------------------------------------------------------------------------------- callbacks -- */

@@ -13,6 +13,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "tags.h"
+
 #define WALL_KEY UINT64_C(0xFFFFFF00) /* a wall in a contact's key: no particle's tag, which are below 2^31 */
 
 /* A contact's key, the smaller number in the upper half, and what it carries along where its particle moves to another rank. */
@@ -31,6 +33,7 @@ typedef struct ranks {
     MPI_Comm world;
     int rank, count;
     int32_t owned, *tag; /* [owned] as found last */
+    tags here;           /* their numbers */
     int peers;
     ranks_peer *peer;
     int64_t straddling; /* contacts with a ghost */
@@ -58,6 +61,9 @@ ranks_state *ranks_find(ranks *r, const int32_t *tag, int32_t owned, const int32
 
 /* Contact contact[k] of key[k] has a ghost of rank owner[k] as j.  Returns false if a key is there twice. */
 bool ranks_plan(ranks *r, const int64_t *contact, const uint64_t *key, const int32_t *owner, int64_t count);
+
+/* Forces on ghosts go to their owners and are added there.  F: [owned, then ghosts][3] in-out; those on ghosts stay as they are. */
+void ranks_return(ranks *r, double *F, const int32_t *ghost_tag, const int32_t *ghost_owner, int32_t ghosts);
 
 /* The callbacks of nlc_options; context is the ranks. */
 int ranks_exchange(void *context, double *side);

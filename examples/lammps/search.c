@@ -51,7 +51,7 @@ static void take_snapshot(host *h, const int32_t *tag, double **x, int32_t owned
 static void make_room(contacts *c, int64_t count)
 {
     int32_t **const indices[] = {&c->i, &c->j, &c->atom_i, &c->atom_j};
-    double **const values[] = {&c->stiffness, &c->overlap, &c->force, &c->hertz};
+    double **const values[] = {&c->stiffness, &c->overlap, &c->force, &c->guess};
     if (count <= c->room) return;
     c->room = count + count / 8;
     for (int k = 0; k < 4; k++) *indices[k] = host_room(*indices[k], (size_t)c->room * sizeof(int32_t));

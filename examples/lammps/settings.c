@@ -46,6 +46,7 @@ static void read_options(host *h)
     o->max_sweeps = (int64_t)number_or(h, "nlc_max_sweeps", 0);
     o->points = number_or(h, "nlc_undeformed", 0) > 0 ? NLC_POINTS_UNDEFORMED : NLC_POINTS_DEFORMED;
     h->set.predict = number_or(h, "nlc_predict", 1) > 0;
+    h->set.turning = number_or(h, "nlc_turning", 0) > 0;
     h->set.interval = (int64_t)number_or(h, "nlc_interval", 1);
     h->set.every = (int64_t)number_or(h, "nlc_every", 0);
     if (h->set.every < 0 || h->set.interval < 1) host_fail("nlc_every is negative, or nlc_interval not positive");

@@ -7,21 +7,17 @@
 #include "host.h"
 
 /* P = k (gamma + g)^(3/2) with the displacements g of the last solve, extrapolated from the last two. */
-static double extrapolated(const contacts *c, int64_t k, double ratio)
+static void extrapolate(const contacts *c, double ratio, double *force)
 {
-    return nlc_hertz_force(c->stiffness[k], c->overlap[k] + c->nonlocal[k] + ratio * (c->nonlocal[k] - c->previous[k]));
+    for (int64_t k = 0; k < c->count; k++)
+        force[k] = host_law(c->stiffness[k], c->overlap[k] + c->nonlocal[k] + ratio * (c->nonlocal[k] - c->previous[k]));
 }
 
-/* Extrapolated, by how much would the forces be wrong now?  Before c->nonlocal and c->previous change. */
-static void keep_extrapolated(host *h, double ratio)
-{
-    for (int64_t k = 0; k < h->c.count; k++) h->c.hertz[k] = extrapolated(&h->c, k, ratio);
-}
-
+/* By how much would extrapolated forces have been wrong now? */
 static void compare_extrapolated(host *h)
 {
     for (int64_t k = 0; k < h->c.count; k++) {
-        h->time.missed += fabs(h->c.hertz[k] - h->c.force[k]);
+        h->time.missed += fabs(h->c.guess[k] - h->c.force[k]);
         h->time.forces_sum += h->c.force[k];
     }
 }
@@ -32,7 +28,7 @@ static void solve(host *h, int64_t step, nlc_info *info)
     nlc_status status;
     const double ratio = h->set.predict && step > h->solved && h->span > 0 ? (double)(step - h->solved) / (double)h->span : 0;
     const bool compare = ratio > 0 && h->set.interval > 1;
-    if (compare) keep_extrapolated(h, ratio);
+    if (compare) extrapolate(c, ratio, c->guess);
     if (ratio > 0) {
         status = nlc_predict(c->nonlocal, c->previous, c->count, ratio, info);
         host_check(status, info, "nlc_predict");
@@ -51,11 +47,10 @@ static void solve(host *h, int64_t step, nlc_info *info)
 }
 
 /* Between two solves. */
-static void extrapolate(host *h, int64_t step, nlc_info *info)
+static void do_not_solve(host *h, int64_t step, nlc_info *info)
 {
     info->residual = h->residual;
-    const double ratio = h->span > 0 ? (double)(step - h->solved) / (double)h->span : 0;
-    for (int64_t k = 0; k < h->c.count; k++) h->c.force[k] = extrapolated(&h->c, k, ratio);
+    extrapolate(&h->c, h->span > 0 ? (double)(step - h->solved) / (double)h->span : 0, h->c.force);
 }
 
 /* Of what is added between two particles; walls have no part in LAMMPS' pressure. */
@@ -65,27 +60,42 @@ static void add_virial(totals *t, double moment, const double n[3])
     for (int e = 0; e < 6; e++) t->virial[e] += moment * n[row[e]] * n[column[e]];
 }
 
-/* What is added: P - P_Hertz along the normal, in c->hertz, as LAMMPS' pair style and walls add P_Hertz. */
-static void differences(host *h)
+/*
+ * P - P_Hertz along the normals, and their sums, in one pass: nlc_assemble checks its arguments in others.  Open pairs add nothing.
+ * On ghosts nothing is added either: their owners have the contact, too.
+ */
+static void add_differences(host *h, double *F)
 {
     const contacts *c = &h->c;
     totals t = {0};
     for (int64_t k = 0; k < c->count; k++) {
-        const double share = host_share(h, k);
-        const double hertz = c->overlap[k] > 0 ? c->stiffness[k] * c->overlap[k] * sqrt(c->overlap[k]) : 0;
-        c->hertz[k] = c->force[k] - hertz;
-        t.active += share * (c->force[k] > 0);
-        t.touching += share * (c->overlap[k] > 0);
-        t.force += share * c->force[k];
+        const double force = c->force[k], overlap = c->overlap[k], hertz = host_hertz(c, k), *n = c->normal + 3 * k;
+        if (!(force > 0 || overlap > 0)) continue;
+        const int32_t i = c->i[k], j = c->j[k];
+        const double share = host_share(h, k), more = force - hertz;
+        t.active += share * (force > 0);
+        t.touching += share * (overlap > 0);
+        t.force += share * force;
         t.hertz += share * hertz;
-        if (c->j[k] < h->bodies) {
-            t.pairs += share * (c->force[k] > 0);
-            add_virial(&t, share * c->hertz[k] * (h->radius[c->i[k]] + h->radius[c->j[k]] - c->overlap[k]), c->normal + 3 * k);
-        } else {
-            t.wall[c->j[k] - h->bodies] += c->force[k];
+        for (int x = 0; x < 3; x++) F[3 * (size_t)i + (size_t)x] -= more * n[x];
+        if (j >= h->bodies) {
+            t.wall[j - h->bodies] += force;
+            continue;
         }
+        t.pairs += share * (force > 0);
+        add_virial(&t, share * more * (h->radius[i] + h->radius[j] - overlap), n);
+        if (j < h->seen.owned)
+            for (int x = 0; x < 3; x++) F[3 * (size_t)j + (size_t)x] += more * n[x];
     }
     h->sum = t;
+}
+
+/* Forces across the contacts, with which the energy is kept.  F is zero. */
+static void add_turning(host *h, double *F)
+{
+    nlc_info info = {.struct_size = sizeof info};
+    host_check(nlc_assemble_turning(h->c.network, F, 0, h->c.force, h->c.overlap, h->c.normal, &info), &info, "nlc_assemble_turning");
+    if (h->ranks.count > 1) ranks_return(&h->ranks, F, h->ghost_tag, h->ghost_owner, h->ghosts);
 }
 
 static double processor_time(void)
@@ -113,12 +123,12 @@ void step_callback(void *pointer, int64_t step, int owned, int *tag, double **x,
     if (stale || step <= h->solved || step - h->solved >= h->set.interval)
         solve(h, step, &info);
     else
-        extrapolate(h, step, &info);
+        do_not_solve(h, step, &info);
     at[3] = processor_time();
-    differences(h);
-    if (h->bodies > 0) memset(f[0], 0, 3 * (size_t)h->bodies * sizeof(double)); /* LAMMPS has rows for its ghosts, too */
-    nlc_status added = nlc_assemble(h->c.network, h->bodies > 0 ? f[0] : at, 0, NULL, h->c.hertz, h->c.normal, NULL);
-    host_check(added, NULL, "nlc_assemble");
+    double none[3], *F = h->bodies > 0 ? f[0] : none; /* LAMMPS has rows for its ghosts, too */
+    if (h->bodies > 0) memset(F, 0, 3 * (size_t)h->bodies * sizeof *F);
+    if (h->set.turning) add_turning(h, F);
+    add_differences(h, F);
     at[4] = processor_time();
     output_step(h, step, &info);
     at[5] = processor_time();
