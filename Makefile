@@ -61,7 +61,7 @@ PC := $(B)/nlcontact.pc
 CMAKE := $(B)/nlcontact-config.cmake $(B)/nlcontact-config-version.cmake
 MAN := $(sort $(wildcard $(S)/man/*.[37]))
 
-.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist deb distcheck clean hydrogel hydrogel-runs bench-large plots setup-plots record-instructions setup-examples coordination FORCE
+.PHONY: all help lib demo bench accuracy figures packing examples check stress setup install uninstall dist deb distcheck clean hydrogel hydrogel-runs bench-large plots setup-plots record-instructions setup-examples coordination energy FORCE
 all: lib packing ## build the libraries and the packing program
 lib: $(STATIC) $(SHARED) ## build the static and the shared library
 
@@ -99,7 +99,7 @@ $(B)/%.cmake: $(S)/%.cmake.in FORCE
 # ---- programs on a packing, and on single spheres
 BENCH_SRC := $(sort $(wildcard $(S)/bench/*.c))
 BENCH_MAIN := $(filter %/packing.c %/bench.c %/steps.c %/roofline.c %/accuracy.c \
-	%/coordination.c %/functions.c %/tradeoff.c %/scale.c %/instructions.c,$(BENCH_SRC))
+	%/coordination.c %/functions.c %/tradeoff.c %/scale.c %/instructions.c %/energy.c,$(BENCH_SRC))
 BENCH_COMMON := $(patsubst $(S)/%.c,$(B)/%.o,$(filter-out $(BENCH_MAIN),$(BENCH_SRC)))
 
 $(B)/bench/%.o: $(S)/bench/%.c
@@ -137,6 +137,8 @@ plots: ## pictures of what make bench and bench-large have found, in build/plots
 		$(S)/bench/plots/$$p.gp && echo $(PLOTS)/$$p.png || exit 1; done
 record-instructions: $(B)/bench/instructions ## count the instructions of every function anew, for the test that compares them (valgrind)
 	@sh $(S)/bench/count_instructions $(STATIC) $< >$(B)/instructions.csv && mv $(B)/instructions.csv $(S)/tests/instructions.csv
+energy: $(B)/bench/energy ## a packing that vibrates undamped: what its energy does, by how forces are found; build/energy.csv, .svg
+	@$(B)/bench/energy --csv $(B)/energy.csv --svg $(B)/energy.svg $(S)/bench/data/b_die125_rd0.70.csv
 coordination: $(B)/bench/coordination ## one sphere with ever more others on it: time beside that of all pairs
 	@$(B)/bench/coordination
 REFERENCES = $(filter-out %/hertz_pressure.csv,$(foreach d,reference fe,$(sort $(wildcard $(S)/bench/data/$(d)/*.csv))))
@@ -217,7 +219,7 @@ $(B)/tests/%.o: $(S)/tests/%.c
 $(B)/tests/%: $(B)/tests/%.o $(TEST_COMMON) $(BENCH_COMMON) $(STATIC)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -pthread -o $@ $^ $(CHECK_LIBS) $(LIBS)
 
-check: lib packing $(FIGURES) $(BEDS) $(HYDROGEL) $(TESTS) $(addprefix $(B)/bench/,accuracy functions tradeoff scale instructions) ## build and run every test (needs what `make setup` installs)
+check: lib packing $(FIGURES) $(BEDS) $(HYDROGEL) $(TESTS) $(addprefix $(B)/bench/,accuracy functions tradeoff scale instructions energy) ## build and run every test (needs what `make setup` installs)
 	@S='$(abspath $(S))' B='$(abspath $(B))' CC='$(CC)' CXX='$(CXX)' FC='$(FC)' MAKE='$(MAKE)' EMULATOR='$(EMULATOR)' \
 		PKG_CONFIG='$(PKG_CONFIG)' VERSION='$(VERSION)' sh $(S)/tests/run $(abspath $(TESTS) $(TEST_SCRIPTS))
 

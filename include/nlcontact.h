@@ -907,7 +907,8 @@ NLC_API nlc_status nlc_assemble(const nlc_network *network, double *NLC_RESTRICT
  *     F -= P.(dC/dx).P / 2
  *
  * Added to the forces of nlc_assemble it makes them the derivative of nlc_energy by the positions, so that a host without damping
- * keeps its energy.  It is some 0.1 % of P in a dense packing.  [GC] and [MC] leave it out.
+ * keeps its energy.  In three dense packings it is 0.4 to 1.3 % of the mean contact force on average, up to 6 % on single particles.
+ * [GC] and [MC] leave it out.
  *
  * network    from nlc_network_init, with a model that has an energy
  * F          [particles][3] in-out [N]

@@ -57,6 +57,14 @@ for n in 4 5; do
 done
 ! grep -q ':7,' "$tmp/scale.csv" || fail "scale goes beyond the size given"
 
+# Energy of a vibrating packing (tests/test_energy.c has the tolerances): four kinds of forces, 1001 samples each.
+run energy --steps 1000 --step 0.05 --csv "$tmp/energy.csv" --svg "$tmp/energy.svg" "$S/bench/data/b_die125_rd0.70.csv"
+awk -F, 'NR > 1 { n[$1]++; c = $5 < 0 ? -$5 : $5; if (c > most[$1]) most[$1] = c }
+    END { for (kind in n) { kinds++; if (n[kind] != 1001) exit 1 }
+          exit !(kinds == 4 && most["solved with turning"] < 1e-4 && most["Hertz"] < 1e-4 && most["one lagged sweep"] > 1e-2) }' \
+    "$tmp/energy.csv" || fail "energy: $(cat "$tmp/out")"
+grep -q '^  solved along normals .* 1000$' "$tmp/out" && grep -q '</svg>' "$tmp/energy.svg" || fail "energy: $(cat "$tmp/out")"
+
 # bench/compare takes all of it.
 for file in functions tradeoff scale; do
     sh "$S/bench/compare" "$tmp/$file.csv" "$tmp/$file.csv" >"$tmp/out" || fail "compare $file.csv: $(cat "$tmp/out")"
@@ -75,12 +83,12 @@ if command -v gnuplot >/dev/null; then
 fi
 
 # Refused.
-for arguments in "functions" "functions --wrong x" "tradeoff" "tradeoff --csv" "scale x" "scale 1e3 1e3"; do
+for arguments in "functions" "functions --wrong x" "tradeoff" "tradeoff --csv" "scale x" "scale 1e3 1e3" "energy" "energy --steps 1500 x" "energy --step"; do
     status=0
     ${EMULATOR-} "$B"/bench/$arguments >/dev/null 2>&1 || status=$?
     [ $status -eq 2 ] || fail "$arguments: status $status"
 done
-for arguments in "functions lattice:2" "tradeoff lattice:x" "tradeoff $tmp/none.csv" "tradeoff --csv $tmp/none/x lattice:3"; do
+for arguments in "functions lattice:2" "energy lattice:2" "tradeoff lattice:x" "tradeoff $tmp/none.csv" "tradeoff --csv $tmp/none/x lattice:3"; do
     status=0
     ${EMULATOR-} "$B"/bench/$arguments >/dev/null 2>"$tmp/err" || status=$?
     [ $status -eq 1 ] && [ -s "$tmp/err" ] || fail "$arguments: status $status: $(cat "$tmp/err")"

@@ -715,8 +715,9 @@ START_TEST(corners)
         const double d = difference(&w, s.force, forces);
         snprintf(label, sizeof label, "model %d, %d domains", _i, domains[k]);
         if (verbose())
-            printf("%s: status %d %d, ghosts of 1, 2, 3, more ranks %d %d %d %d, contacts that a third one sees %d, difference %.1e\n", label, status,
-                   w.rank[0].status, particles[1], particles[2], particles[3], several - particles[2] - particles[3], seen, d);
+            printf("%s: status %d %d, ghosts of 1, 2, 3, more ranks %d %d %d %d, contacts that a third one sees %d, "
+                   "difference %.1e\n", label, status, w.rank[0].status, particles[1], particles[2], particles[3],
+                   several - particles[2] - particles[3], seen, d);
         ck_assert_int_eq((status | w.rank[0].status) & ~(NLC_WARNING_ROUNDING | NLC_WARNING_CLOSE), NLC_OK);
         ck_assert_int_ge(particles[1], 10);
         ck_assert(k == 0 ? several == 0 && seen == 0 : several >= 3 && seen >= 3);

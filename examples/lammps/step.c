@@ -94,7 +94,8 @@ static void add_differences(host *h, double *F)
 static void add_turning(host *h, double *F)
 {
     nlc_info info = {.struct_size = sizeof info};
-    host_check(nlc_assemble_turning(h->c.network, F, 0, h->c.force, h->c.overlap, h->c.normal, &info), &info, "nlc_assemble_turning");
+    const nlc_status status = nlc_assemble_turning(h->c.network, F, 0, h->c.force, h->c.overlap, h->c.normal, &info);
+    host_check(status, &info, "nlc_assemble_turning");
     if (h->ranks.count > 1) ranks_return(&h->ranks, F, h->ghost_tag, h->ghost_owner, h->ghosts);
 }
 
