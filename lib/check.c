@@ -25,10 +25,27 @@ int64_t nlc_first_not_force(const double *values, int64_t count)
     return -1;
 }
 
+/* Of GROUP normals at a time.  A component of 2 or more shows in one bit, and without such no square can overflow. */
+#define GROUP 8
+static bool are_unit(const double *normals)
+{
+    uint64_t bits = 0;
+    double worst = 0;
+    for (int x = 0; x < 3 * GROUP; x++) bits |= nlc_bits(normals[x]);
+    if (bits & NLC_TWO_BITS) return false;
+    for (int c = 0; c < GROUP; c++) {
+        const double off = fabs(nlc_dot(normals + 3 * c, normals + 3 * c) - 1);
+        worst = off > worst ? off : worst;
+    }
+    return worst <= NLC_UNIT_TOLERANCE;
+}
+
 int64_t nlc_first_not_unit(const double *normals, int64_t count)
 {
-    for (int64_t c = 0; c < count; c++)
-        if (!nlc_is_unit(normals + 3 * c)) return c;
+    for (int64_t c = 0; c < count; c++) {
+        while (c + GROUP <= count && are_unit(normals + 3 * c)) c += GROUP;
+        if (c < count && !nlc_is_unit(normals + 3 * c)) return c;
+    }
     return -1;
 }
 

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* close.c - circles of contact that overlap each other: point forces are no model of these. */
+#include "crowd.h"
+#include "parallel.h"
 #include "tree.h"
 
 /* The overlap that a contact has, or would have alone if others push it open. */
@@ -89,16 +91,49 @@ static bool may_overlap(const nlc_network *n, int64_t particle, double reduced)
     return reduced >= 0.249 * n->closest[particle] * n->radius[particle];
 }
 
+typedef struct job {
+    const nlc_network *n;
+    const double *overlap, *normal;
+    double largest; /* reduced overlap */
+} job;
+
+static void reduce_task(void *work, int64_t s)
+{
+    const job *w = work;
+    double largest = 0;
+    for (int64_t c = s * NLC_SLAB; c < nlc_end_of(s, NLC_SLAB, w->n->contact_count); c++)
+        largest = larger_reduced(w->n, w->overlap, c, largest);
+    w->n->piece[s].force = largest;
+}
+
+static bool is_close(const job *w, int64_t k)
+{
+    const nlc_network *n = w->n;
+    double here = 0;
+    if (n->scale[k] <= 0 || !may_overlap(n, k, w->largest)) return false;
+    for (int64_t p = n->start[k]; p < n->start[k + 1]; p++) here = larger_reduced(n, w->overlap, n->entry[p] >> 1, here);
+    return may_overlap(n, k, here) && overlap_on(n, k, w->overlap, w->normal);
+}
+
+static void close_task(void *work, int64_t v)
+{
+    const job *w = work;
+    bool close = false;
+    for (int64_t k = v * NLC_WINDOW; k < nlc_end_of(v, NLC_WINDOW, w->n->owned) && !close; k++)
+        close = !nlc_is_crowd(w->n, k) && is_close(w, k);
+    w->n->piece[v].flag[0] = close;
+}
+
 /* Most particles need no look at pairs: their circles are too small for the distance of the closest two directions. */
 bool nlc_circles_overlap(const nlc_network *n, const double *overlap, const double *normal)
 {
-    double largest = 0;
-    for (int64_t c = 0; c < n->contact_count; c++) largest = larger_reduced(n, overlap, c, largest);
-    for (int64_t k = 0; k < n->owned; k++) {
-        double here = 0;
-        if (n->scale[k] <= 0 || !may_overlap(n, k, largest)) continue;
-        for (int64_t p = n->start[k]; p < n->start[k + 1]; p++) here = larger_reduced(n, overlap, n->entry[p] >> 1, here);
-        if (may_overlap(n, k, here) && overlap_on(n, k, overlap, normal)) return true;
-    }
-    return false;
+    job all = {n, overlap, normal, 0};
+    bool close = false;
+    nlc_for(n, reduce_task, &all, nlc_slabs(n));
+    for (int64_t s = 0; s < nlc_slabs(n); s++) all.largest = n->piece[s].force > all.largest ? n->piece[s].force : all.largest;
+    nlc_for(n, close_task, &all, nlc_windows(n));
+    for (int64_t v = 0; v < nlc_windows(n); v++) close |= n->piece[v].flag[0];
+    for (int64_t k = 0; k < n->owned && n->most_contacts >= NLC_TREE_FROM && !close; k++) /* there is room for one tree */
+        close = nlc_is_crowd(n, k) && is_close(&all, k);
+    return close;
 }

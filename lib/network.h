@@ -39,7 +39,9 @@ typedef struct nlc_settings {
 typedef struct nlc_piece {
     nlc_small sum;
     double residual, force;
-    int64_t bad; /* particle */
+    int64_t bad;   /* particle or contact */
+    int64_t count; /* contacts */
+    bool flag[2];
 } nlc_piece;
 
 /* What a network that is shared out among ranks has to know of them, see collective.h. */

@@ -62,11 +62,12 @@ double nlc_energy_residual(nlc_iteration *q)
         const double y = nlc_scaled_overlap(q, c), z = n->direction[0][c];
         double slope = 1.5 * nlc_scaled_stiffness(q, c) * sqrt(0.5 * (y + fabs(y)));
         slope = slope > n->floor[c] ? slope : n->floor[c];
+        const double energy = z * z / slope;
         const int64_t end[2] = {n->i[c], n->j[c]};
         for (int side = 0; side < 2; side++) {
             if (end[side] >= n->particle_count) continue;
-            sum[end[side]] += z * z / slope;
-            if (slope > top[end[side]]) top[end[side]] = slope;
+            sum[end[side]] += energy;
+            top[end[side]] = slope > top[end[side]] ? slope : top[end[side]];
         }
     }
     double worst = nlc_energy_ratio(n, sum, top);

@@ -4,6 +4,7 @@
 
 #include "active.h"
 #include "collective.h"
+#include "slabs.h"
 #include "structs.h"
 #include "vector.h"
 
@@ -22,10 +23,10 @@ static nlc_status check_range(double overlap, int stiffness_exponent, int coupli
 
 static nlc_status check(nlc_network *n, const double *overlap, const double *normal, const double *nonlocal, int64_t *culprit)
 {
-    n->top.overlap = nlc_largest_magnitude(overlap, n->contact_count);
-    n->top.nonlocal = nlc_largest_magnitude(nonlocal, n->contact_count);
+    n->top.overlap = nlc_top(n, overlap);
+    n->top.nonlocal = nlc_top(n, nonlocal);
     if ((*culprit = nlc_first_not_finite(overlap, nlc_is_finite(n->top.overlap) ? 0 : n->contact_count)) >= 0) return NLC_ERROR_OVERLAP;
-    if ((*culprit = nlc_first_not_unit(normal, n->contact_count)) >= 0) return NLC_ERROR_NORMAL;
+    if ((*culprit = nlc_first_bad_normal(n, normal)) >= 0) return NLC_ERROR_NORMAL;
     if ((*culprit = nlc_first_not_finite(nonlocal, nlc_is_finite(n->top.nonlocal) ? 0 : n->contact_count)) >= 0) return NLC_ERROR_NONLOCAL;
     return check_range(n->top.overlap, n->stiffness_exponent, n->coupling_exponent);
 }
@@ -266,6 +267,36 @@ static void solve(nlc_network *n, const double *overlap, const double *normal, c
         iterate(n, overlap, normal, nonlocal, out);
 }
 
+/* The caller's results. */
+typedef struct results {
+    const nlc_network *n;
+    const double *overlap;
+    double *force, *nonlocal;
+} results;
+
+static void result_task(void *work, int64_t s)
+{
+    const results *r = work;
+    const nlc_network *n = r->n;
+    int64_t active = 0;
+    for (int64_t c = s * NLC_SLAB; c < nlc_end_of(s, NLC_SLAB, n->contact_count); c++) {
+        r->nonlocal[c] = n->current[c];
+        r->force[c] = nlc_law(n->stiffness[c], r->overlap[c] + r->nonlocal[c]);
+        active += r->force[c] > 0;
+    }
+    n->piece[s].count = active;
+}
+
+/* Returns how many forces there are. */
+static int64_t hand_out(const nlc_network *n, double *force, double *nonlocal, const double *overlap)
+{
+    results all = {n, overlap, force, nonlocal};
+    int64_t active = 0;
+    nlc_for(n, result_task, &all, nlc_slabs(n));
+    for (int64_t s = 0; s < nlc_slabs(n); s++) active += n->piece[s].count;
+    return active;
+}
+
 nlc_status nlc_solve(nlc_network *network, double *NLC_RESTRICT force, double *NLC_RESTRICT nonlocal,
                      const double *NLC_RESTRICT overlap, const double *NLC_RESTRICT normal, nlc_info *info)
 {
@@ -286,10 +317,7 @@ nlc_status nlc_solve(nlc_network *network, double *NLC_RESTRICT force, double *N
     }
     if (out.status < 0) return valid ? nlc_error(info, out.status, out.info.culprit) : out.status;
 
-    for (int64_t c = 0; c < count; c++) {
-        nonlocal[c] = network->current[c];
-        force[c] = nlc_law(network->stiffness[c], overlap[c] + nonlocal[c]);
-        if (!shared) out.info.active += force[c] > 0;
-    }
+    const int64_t active = hand_out(network, force, nonlocal, overlap);
+    if (!shared) out.info.active = active;
     return nlc_report(info, &out.info, out.status);
 }

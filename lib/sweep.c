@@ -6,7 +6,7 @@
 
 #include "collective.h"
 #include "crowd.h"
-#include "parallel.h"
+#include "slabs.h"
 #include "structs.h"
 #include "tree.h"
 #include "vector.h"
@@ -170,7 +170,7 @@ static int closeness(const nlc_network *n, const double *normal)
 /* Whether no intermediate of a sweep can overflow.  Exact closeness is looked at only where the bound from above fails. */
 static bool in_range(const nlc_network *n, const double *force, const double *normal)
 {
-    int e = nlc_exponent_above(nlc_largest_magnitude(force, n->contact_count)) + n->coupling_exponent +
+    int e = nlc_exponent_above(nlc_top(n, force)) + n->coupling_exponent +
             nlc_exponent_above(n->unit) + nlc_exponent_above((double)n->contact_count) + 4;
     if (n->settings.model->shape == NLC_SHAPE_PLACE) e += 10; /* a point that is nearly straight above another */
     return e + 512 <= 1020 || e + closeness(n, normal) <= 1020;

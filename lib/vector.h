@@ -6,6 +6,7 @@
 #include "number.h"
 
 #define NLC_UNIT_TOLERANCE 1e-6
+#define NLC_TWO_BITS (UINT64_C(1) << 62) /* set in what is 2 or more or no number, and in nothing else */
 
 static inline double nlc_dot(const double *a, const double *b)
 {
@@ -15,8 +16,7 @@ static inline double nlc_dot(const double *a, const double *b)
 /* | |n|^2 - 1 | <= 1e-6.  Components are looked at first: a square could overflow. */
 static inline bool nlc_is_unit(const double *n)
 {
-    const uint64_t two = NLC_ONE_BITS + (UINT64_C(1) << 52);
-    if (nlc_abs_bits(n[0]) >= two || nlc_abs_bits(n[1]) >= two || nlc_abs_bits(n[2]) >= two) return false;
+    if ((nlc_bits(n[0]) | nlc_bits(n[1]) | nlc_bits(n[2])) & NLC_TWO_BITS) return false;
     return fabs(nlc_dot(n, n) - 1) <= NLC_UNIT_TOLERANCE;
 }
 

@@ -11,6 +11,7 @@
  */
 #include "collective.h"
 #include "iteration.h"
+#include "slabs.h"
 #include "structs.h"
 
 #define LARGEST 8    /* displacement of a start, in units of the largest overlap */
@@ -19,7 +20,7 @@
 #define SLOW 0.6     /* a residual that shrinks by less in a sweep wants a better method, ... */
 #define FAR 100      /* ... and so does one of so many tolerances */
 #define KNOWN 0.8    /* the bound of lambda that the better method is told of if it holds */
-#define LOCAL 4    /* likewise, where most forces are right already */
+#define LOCAL 4      /* likewise, where most forces are right already */
 
 /* What a start has to be worth looking at: displacements of about the right size, one cluster (of which ranks know nothing). */
 static bool may_do(const nlc_network *n)
@@ -40,26 +41,53 @@ static double overlap_of(const nlc_iteration *q, const guess *from, int64_t c)
     return q->overlap[c] * q->load + from->nonlocal[c] * from->unit;
 }
 
-/* Forces into n->force, and beside their weights into n->share; returns how many there are. */
-static int64_t start(nlc_iteration *q, const guess *from)
+/* What passes over contacts and particles have in common. */
+typedef struct job {
+    nlc_iteration *q;
+    const guess *from;
+    double unit;
+} job;
+
+static void start_task(void *work, int64_t s)
 {
-    nlc_network *n = q->n;
+    const job *w = work;
+    const nlc_iteration *q = w->q;
+    const nlc_network *n = q->n;
     int64_t active = 0;
-    for (int64_t c = 0; c < n->contact_count; c++) {
-        const double y = overlap_of(q, from, c), k = nlc_scaled_stiffness(q, c);
+    for (int64_t c = s * NLC_SLAB; c < nlc_end_of(s, NLC_SLAB, n->contact_count); c++) {
+        const double y = overlap_of(q, w->from, c), k = nlc_scaled_stiffness(q, c);
         const double U = n->unit * nlc_yield_of(n, n->i[c]) + n->unit * nlc_yield_of(n, n->j[c]);
         n->force[c] = n->share[2 * c] = nlc_law(k, y);
         n->share[2 * c + 1] = 1.5 * k * U * sqrt(nlc_weighed_overlap(y));
         active += y > 0;
     }
+    n->piece[s].count = active;
+}
+
+/* Forces into n->force, and beside their weights into n->share; returns how many there are. */
+static int64_t start(nlc_iteration *q, const guess *from)
+{
+    job all = {q, from, 1};
+    int64_t active = 0;
+    nlc_for(q->n, start_task, &all, nlc_slabs(q->n));
+    for (int64_t s = 0; s < nlc_slabs(q->n); s++) active += q->n->piece[s].count;
     return active;
 }
 
-/* What a sweep has left of n->side as displacements of contacts. */
-static guess take_sweep(nlc_network *n, double unit)
+static void take_task(void *work, int64_t s)
 {
-    for (int64_t c = 0; c < n->contact_count; c++) n->current[c] = (n->side[2 * c] + n->side[2 * c + 1]) / unit;
-    return (guess){n->current, 1};
+    const job *w = work;
+    const nlc_network *n = w->q->n;
+    for (int64_t c = s * NLC_SLAB; c < nlc_end_of(s, NLC_SLAB, n->contact_count); c++)
+        n->current[c] = (n->side[2 * c] + n->side[2 * c + 1]) / w->unit;
+}
+
+/* What a sweep has left of n->side as displacements of contacts. */
+static guess take_sweep(nlc_iteration *q, double unit)
+{
+    job all = {q, NULL, unit};
+    nlc_for(q->n, take_task, &all, nlc_slabs(q->n));
+    return (guess){q->n->current, 1};
 }
 
 /* The particle's contacts with their weights; false: they do not fit. */
@@ -133,36 +161,79 @@ typedef struct result {
     bool lost;      /* displacements beyond anything */
 } result;
 
-static result look(const nlc_iteration *q, const guess *from)
+/* Of one contact; *energy and *slope: what scales.c wants to know of its particles. */
+static inline void look_at(const nlc_iteration *q, const guess *from, int64_t c, result *r, double *energy, double *slope)
+{
+    const nlc_network *n = q->n;
+    const double x = q->overlap[c] * q->load, g = n->side[2 * c] + n->side[2 * c + 1], k = nlc_scaled_stiffness(q, c);
+    const double before = overlap_of(q, from, c), y = x + g, a = n->largest[n->i[c]], b = n->largest[n->j[c]];
+    r->lost |= fabs(g) > 0.5 * NLC_FARTHEST;
+    r->grown |= y > 0 && y > nlc_weighed_overlap(before);
+    const double positive = 0.5 * (y + fabs(y)), rise = k * sqrt(positive < NLC_FARTHEST ? positive : NLC_FARTHEST);
+    const double size = fabs(rise * positive - n->force[c]), scale = a > b ? a : b;
+    *energy = size * fabs(y - before);
+    *slope = 1.5 * rise;
+    r->moving += size > n->settings.tolerance * scale;
+    if (size <= r->ratio * scale) return;
+    r->ratio = nlc_ratio(size, scale);
+    r->where = c;
+}
+
+static inline void add_to(const nlc_network *n, int64_t body, double energy, double slope)
+{
+    if (body >= n->particle_count) return;
+    n->bound[body] += energy;
+    n->growth[body] = slope > n->growth[body] ? slope : n->growth[body];
+}
+
+/* Threads leave with each contact what is added up afterwards, particle by particle: in the same order. */
+static void look_task(void *work, int64_t s)
+{
+    const job *w = work;
+    const nlc_network *n = w->q->n;
+    const bool alone = !n->settings.parallel_for;
+    result r = {.where = -1};
+    for (int64_t c = s * NLC_SLAB; c < nlc_end_of(s, NLC_SLAB, n->contact_count); c++) {
+        double energy, slope;
+        look_at(w->q, w->from, c, &r, &energy, &slope);
+        if (alone) {
+            add_to(n, n->i[c], energy, slope);
+            add_to(n, n->j[c], energy, slope);
+        } else {
+            n->own[2 * c] = energy;
+            n->own[2 * c + 1] = slope;
+        }
+    }
+    n->piece[s] = (nlc_piece){.residual = r.ratio, .bad = r.where, .count = r.moving, .flag = {r.grown, r.lost}};
+}
+
+static void add_task(void *work, int64_t v)
+{
+    const nlc_network *n = ((const job *)work)->q->n;
+    for (int64_t k = v * NLC_WINDOW; k < nlc_end_of(v, NLC_WINDOW, n->owned); k++) {
+        n->bound[k] = n->growth[k] = 0;
+        for (int64_t p = n->start[k]; p < n->start[k + 1]; p++) add_to(n, k, n->own[n->entry[p] & ~1], n->own[n->entry[p] | 1]);
+    }
+}
+
+static result look(nlc_iteration *q, const guess *from)
 {
     nlc_network *n = q->n;
+    job all = {q, from, 1};
     result r = {.where = -1};
-    double *sum = n->bound, *top = n->growth, worst = 0;
-    for (int64_t k = 0; k < n->particle_count; k++) sum[k] = top[k] = 0;
-    for (int64_t c = 0; c < n->contact_count; c++) {
-        const int64_t i = n->i[c], j = n->j[c];
-        const double x = q->overlap[c] * q->load, g = n->side[2 * c] + n->side[2 * c + 1], k = nlc_scaled_stiffness(q, c);
-        const double before = overlap_of(q, from, c), y = x + g, a = n->largest[i], b = n->largest[j];
-        r.lost |= fabs(g) > 0.5 * NLC_FARTHEST;
-        r.grown |= y > 0 && y > nlc_weighed_overlap(before);
-        const double positive = 0.5 * (y + fabs(y)), rise = k * sqrt(positive < NLC_FARTHEST ? positive : NLC_FARTHEST), slope = 1.5 * rise;
-        const double z = rise * positive - n->force[c], size = fabs(z), scale = a > b ? a : b;
-        const double energy = size * fabs(y - before);
-        if (i < n->particle_count) {
-            sum[i] += energy;
-            top[i] = slope > top[i] ? slope : top[i];
-        }
-        if (j < n->particle_count) {
-            sum[j] += energy;
-            top[j] = slope > top[j] ? slope : top[j];
-        }
-        r.moving += size > n->settings.tolerance * scale;
-        if (size <= worst * scale) continue;
-        worst = nlc_ratio(size, scale);
-        r.where = c;
+    for (int64_t k = 0; k < n->particle_count; k++) n->bound[k] = n->growth[k] = 0;
+    nlc_for(n, look_task, &all, nlc_slabs(n));
+    for (int64_t s = 0; s < nlc_slabs(n); s++) {
+        const nlc_piece *piece = &n->piece[s];
+        r.grown |= piece->flag[0];
+        r.lost |= piece->flag[1];
+        r.moving += piece->count;
+        if (piece->residual > r.ratio) r.where = piece->bad;
+        r.ratio = piece->residual > r.ratio ? piece->residual : r.ratio;
     }
-    r.ratio = nlc_energy_ratio(n, sum, top);
-    r.ratio = worst > r.ratio ? worst : r.ratio;
+    if (n->settings.parallel_for) nlc_for(n, add_task, &all, nlc_windows(n));
+    const double energy = nlc_energy_ratio(n, n->bound, n->growth);
+    r.ratio = energy > r.ratio ? energy : r.ratio;
     return r;
 }
 
@@ -242,14 +313,14 @@ bool nlc_is_solved(nlc_network *n, const double *overlap, const double *normal, 
     if (!shared && active <= n->contact_count / 2) return false; /* contacts are left out, which is better; ranks leave none */
     verdict v = sweep(&q, &from, INFINITY, &info, out);
     while (v == AGAIN && out->info.sweeps < n->settings.max_sweeps) {
-        from = take_sweep(n, 1);
+        from = take_sweep(&q, 1);
         start(&q, &from);
         v = sweep(&q, &from, info.residual / n->settings.tolerance, &info, out);
     }
     if (v == OVER) return true;
     if ((v == AGAIN || v == HAND_OVER) && (shared || active > n->contact_count / 4 * 3)) hand_over(&q, &from, &info, out);
     if (v != SOLVED) return false;
-    take_sweep(n, q.per_overlap);
+    take_sweep(&q, q.per_overlap);
     info.sweeps = out->info.sweeps;
     info.residual *= NLC_SAFETY / (1 - info.lambda_upper);
     if (info.residual > n->settings.tolerance) info.residual = n->settings.tolerance; /* by rounding */
