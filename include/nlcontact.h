@@ -766,7 +766,7 @@ NLC_API size_t nlc_cache_size(const nlc_network *network);
  * that has it, and is -1 on the others.  The callback exchange is called once a sweep, and besides to begin, to judge and to end:
  *     4 times in all for a start that is the solution already, else up to 12 times more than there are sweeps;
  *     up to 17 times more each time that lambda has to be bounded closely: near 1, and on particles with more than 64 contacts;
- *     20 times a sweep where the coupling is weakened; twice a sweep by NLC_METHOD_FIXED_POINT.
+ *     21 times a sweep where the coupling is weakened; twice a sweep by NLC_METHOD_FIXED_POINT.
  *
  * Returns NLC_OK; NLC_WARNING_NOT_CONVERGED, _WEAKENED, _ROUNDING, _CLOSE, or several of them added;
  * NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _OVERLAP, _NORMAL, _NONLOCAL, _COINCIDENT, _RANGE; on ranks _OPTION (theirs differ),

@@ -78,21 +78,6 @@ static void append(nlc_anderson *h, const double *x, const double *r)
     if (h->count < h->columns) h->count++;
 }
 
-static void next_x(nlc_anderson *h, double *x, const double *r)
-{
-    double s[NLC_COLUMNS];
-    const double step = h->count > 0 ? 1 : h->step;
-    least_squares(h, r, s);
-    for (int64_t c = 0; c < h->length; c++) {
-        double v = x[c] + step * r[c];
-        for (int l = 0; l < h->count; l++) v -= s[l] * ((double)h->dx[l][c] + step * (double)h->df[l][c]);
-        h->old_x[c] = x[c];
-        h->old_r[c] = r[c];
-        x[c] = v > h->most ? h->most : v < -h->most ? -h->most : v;
-    }
-    h->pending = true;
-}
-
 void nlc_anderson_reset(nlc_anderson *h, double step)
 {
     h->count = h->head = 0;
@@ -152,11 +137,30 @@ void nlc_anderson_meet(nlc_anderson *h, const double *x, const double *r, double
     h->met = true;
 }
 
-void nlc_anderson_step(nlc_anderson *h, double *x, const double *r)
+void nlc_anderson_combine(nlc_anderson *h, double *x, double *r)
 {
+    double s[NLC_COLUMNS];
     if (!h->met) append(h, x, r);
-    next_x(h, x, r);
+    least_squares(h, r, s);
+    for (int64_t c = 0; c < h->length; c++) {
+        h->old_x[c] = x[c];
+        h->old_r[c] = r[c];
+        for (int l = 0; l < h->count; l++) {
+            x[c] -= s[l] * (double)h->dx[l][c];
+            r[c] -= s[l] * (double)h->df[l][c];
+        }
+    }
+    h->pending = true;
     h->met = false;
+}
+
+void nlc_anderson_move(nlc_anderson *h, double *x, const double *r)
+{
+    const double step = h->count > 0 ? 1 : h->step;
+    for (int64_t c = 0; c < h->length; c++) {
+        const double v = x[c] + step * r[c];
+        x[c] = v > h->most ? h->most : v < -h->most ? -h->most : v;
+    }
 }
 
 double nlc_anderson_amplification(const nlc_anderson *h)

@@ -38,8 +38,12 @@ void nlc_anderson_meet(nlc_anderson *h, const double *x, const double *r, double
 /* Forgets what was. */
 void nlc_anderson_reset(nlc_anderson *h, double step);
 
-/* x from x and its residual r = F(x) - x. */
-void nlc_anderson_step(nlc_anderson *h, double *x, const double *r);
+/*
+ * A step from x, whose residual is r = F(x) - x, in two halves: x and r become those of the best combination of the last steps, and x
+ * moves along r.  What is done to r in between makes the method better if it takes r closer to the error of x.
+ */
+void nlc_anderson_combine(nlc_anderson *h, double *x, double *r);
+void nlc_anderson_move(nlc_anderson *h, double *x, const double *r);
 
 /* Largest ratio of the lengths of a step and of the change of the residual by it: by how much a residual may be amplified. */
 double nlc_anderson_amplification(const nlc_anderson *h);

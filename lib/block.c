@@ -68,8 +68,7 @@ double nlc_block_norm(const nlc_network *n, const double *normal, int64_t partic
     return trace / m + sqrt(0.5 * (rest + fabs(rest)) * (m - 1) / m);
 }
 
-/* The block as a dense matrix, both triangles; returns its rows, or -1 if it does not fit. */
-static int dense(double *B, const nlc_network *n, const double *normal, int64_t particle)
+int nlc_block_matrix(double *B, int64_t *side, const nlc_network *n, const double *normal, int64_t particle)
 {
     nlc_block b;
     int64_t entry[NLC_BLOCK];
@@ -80,6 +79,7 @@ static int dense(double *B, const nlc_network *n, const double *normal, int64_t 
         const bool self = is_self(n, entry[a]);
         row[a] = self && a > 0 && entry[a] >> 1 == entry[a - 1] >> 1 ? rows - 1 : rows;
         rows = row[a] + 1;
+        side[row[a]] = entry[a];
         root[a] = sqrt(self ? n->slope[entry[a] >> 1] : b.force[a]);
     }
     const double U = nlc_scale_of(n, particle);
@@ -208,14 +208,16 @@ static double estimate(nlc_network *n, const double *normal, int64_t k, double l
 bool nlc_block_is_below(nlc_network *n, const double *normal, int64_t particle, double beta)
 {
     double B[NLC_BLOCK * NLC_BLOCK];
-    const int rows = dense(B, n, normal, particle);
+    int64_t side[NLC_BLOCK];
+    const int rows = nlc_block_matrix(B, side, n, normal, particle);
     return rows < 0 ? estimate(n, normal, particle, beta, beta) <= beta : nlc_is_below(B, rows, beta);
 }
 
 double nlc_block_eigenvalue(nlc_network *n, const double *normal, int64_t particle)
 {
     double B[NLC_BLOCK * NLC_BLOCK], work[4 * NLC_BLOCK];
-    const int rows = dense(B, n, normal, particle);
+    int64_t side[NLC_BLOCK];
+    const int rows = nlc_block_matrix(B, side, n, normal, particle);
     if (rows < 0) return estimate(n, normal, particle, NLC_BOUND_FLOOR, INFINITY);
     return rows > 0 ? nlc_largest_eigenvalue(B, rows, work) : 0;
 }

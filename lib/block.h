@@ -22,4 +22,10 @@ bool nlc_block_is_below(nlc_network *network, const double *normal, int64_t part
  */
 double nlc_block_eigenvalue(nlc_network *network, const double *normal, int64_t particle);
 
+/*
+ * The block itself, both triangles, [rows][rows]; side [rows] is a side of each row's contact.  Returns how many rows there are: at
+ * most NLC_BLOCK, -1 if that is too few.
+ */
+int nlc_block_matrix(double *B, int64_t *side, const nlc_network *network, const double *normal, int64_t particle);
+
 #endif

@@ -29,6 +29,8 @@
 #define LOAD_STEPS 16     /* when all else has failed */
 #define LOAD_SWEEPS 60    /* in each of them but the last */
 #define NEAR 0.01         /* residual below which Ritz values say something of lambda */
+#define NEARER 1e-5       /* ... and bounds, to a sixth of the margin or so */
+#define KEPT_FROM 0.8     /* Ritz value from which states are kept in case that the next one is beyond the end */
 #define RUNAWAY 1e6
 #define LINEAR 0.1        /* of the 3/2-th power of the residual: that is what linear steps may make of it */
 #define LINEAR_ENOUGH 0.1 /* of the tolerance: no less is asked of them */
@@ -42,7 +44,8 @@ typedef struct progress {
     int64_t where;
     int stalled;        /* sweeps since it last fell, when it is near rounding */
     int critical;       /* sweeps in a row with a Ritz value near 1 */
-    bool looked, all;
+    int looks;
+    bool all;
     int64_t begun;   /* sweeps before this solve */
     bool settled;    /* images are those of a state near the solution, so that Ritz values say something of lambda */
     bool exact;      /* the displacements are those of the iterate, not of the last state and what changed since then */
@@ -120,14 +123,18 @@ static verdict certify(nlc_iteration *q, double beta, nlc_outcome *out)
     return good ? DONE : beyond ? BEYOND : GO_ON;
 }
 
-/* A rough look before convergence, when a Ritz value comes near 1: is it hopeless?  Saves sweeps, decides no result. */
-static bool too_near(nlc_iteration *q, nlc_outcome *out)
+/*
+ * A rough look before convergence, when a Ritz value comes near 1, and a closer one later on: is it hopeless?  Saves sweeps, decides
+ * no result.
+ */
+static bool too_near(nlc_iteration *q, progress *s, nlc_outcome *out)
 {
+    const double limit = 1 - NLC_MARGIN + (s->looks++ == 0 ? 0.001 : 0);
     nlc_bound bound = {INFINITY, -1, 0};
     set_slopes(q);
     nlc_bound_balance(q->n, q->normal, NLC_BALANCE_PASSES, 1 - NLC_MARGIN, &bound);
     out->info.blocks += bound.blocks;
-    return !nlc_is_over(q->n, out) && bound.upper > 1 - NLC_MARGIN + 0.001;
+    return !nlc_is_over(q->n, out) && bound.upper > limit;
 }
 
 /* How far the iterate is from the end. */
@@ -183,6 +190,13 @@ static void shorten(nlc_iteration *q)
     for (int d = 0; d < q->directions && longest > LONGEST_STEP; d++) q->step[d] *= LONGEST_STEP / longest;
 }
 
+/* Where nlc_weaken may begin. */
+static void keep(nlc_iteration *q)
+{
+    for (int64_t c = 0; c < q->n->contact_count; c++) q->n->spare[3][c] = nlc_scaled_overlap(q, c);
+    q->kept = true;
+}
+
 /* One step; false if the sweep failed. */
 static bool advance(nlc_iteration *q, progress *s, nlc_outcome *out)
 {
@@ -198,6 +212,7 @@ static bool advance(nlc_iteration *q, progress *s, nlc_outcome *out)
     const bool critical = q->theta >= 1 || (near && q->theta > 1 - NLC_MARGIN + 0.001);
     s->critical = out->info.sweeps - s->begun > 4 && critical ? s->critical + 1 : 0;
     s->all = s->all || q->theta > ALL_FROM || out->info.sweeps - s->begun > 12;
+    if (q->theta > KEPT_FROM && q->theta < 1) keep(q);
     nlc_take_step(q, s->all);
     s->exact = nlc_is_linear(q->n->settings.model->shape);
     s->since++;
@@ -241,9 +256,8 @@ static verdict iterate(nlc_iteration *q, progress *s, nlc_outcome *out)
         if ((out->info.sweeps - s->begun > GIVE_UP && q->theta > HOPELESS) || s->critical >= 6) return BEYOND;
         if (out->info.sweeps - s->begun > LOST && q->largest_residual >= q->largest_force) return GO_ON;
         if (!advance(q, s, out)) return DONE;
-        if (s->looked || q->theta <= 1 - 2 * NLC_MARGIN || q->largest_residual >= NEAR * q->largest_force) continue;
-        s->looked = true;
-        if (too_near(q, out)) return BEYOND;
+        if (s->looks > 1 || q->theta <= 1 - 2 * NLC_MARGIN) continue;
+        if (q->largest_residual < (s->looks > 0 ? NEARER : NEAR) * q->largest_force && too_near(q, s, out)) return BEYOND;
     }
 }
 

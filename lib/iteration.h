@@ -19,6 +19,7 @@ struct nlc_iteration {
     nlc_small M, K; /* W^T D^-1 W and W^T C W of the directions W */
     double step[NLC_DIRECTIONS], ritz[2][NLC_DIRECTIONS];
     double theta; /* largest Ritz value of the last step: at most lambda */
+    bool kept;    /* spare[3] is the last state of an iteration towards the end of the stable branch that was not seen to be beyond */
 };
 
 #define NLC_SOFTEST 1e-150 /* softer contacts carry nothing, and this may be divided by */
@@ -99,7 +100,13 @@ double nlc_energy_residual(nlc_iteration *q);
 /* The same from the sum of z^2 / D and the largest slope D of every particle, whose largest forces are in n->largest. */
 double nlc_energy_ratio(const nlc_network *n, const double *sum, const double *top);
 
-/* weaken.c: the solution with weakened coupling, from the present iterate. */
+/*
+ * schwarz.c: r, the residual of weakened equations at overlaps plus displacements x, becomes about what x is off by.
+ * network->weakening is that at x.
+ */
+void nlc_ask_particles(nlc_iteration *q, const double *x, double *r, nlc_outcome *outcome);
+
+/* weaken.c: the solution with weakened coupling; it begins at the start given, or where the iteration came to. */
 void nlc_weaken(nlc_iteration *q, nlc_outcome *outcome);
 
 /* The error is taken for no less than this times residual / (1 - lambda), see galerkin.c. */

@@ -151,7 +151,8 @@ static bool iterate(nlc_iteration *q, vectors *v, nlc_outcome *out)
             h.smallest = norm;
             memcpy(v->best, v->x, (size_t)v->length * sizeof *v->x);
         }
-        nlc_anderson_step(&h, v->x, v->y);
+        nlc_anderson_combine(&h, v->x, v->y);
+        nlc_anderson_move(&h, v->x, v->y);
     }
     return false;
 }

@@ -5,7 +5,8 @@
  *     x = gamma + sum over particles of t_k C_k P(x),   t_k = min(1, (1 - m) / b_k(x))
  *
  * with the balanced b_k of bound.c at x: a particle is weakened just so far that its block stays stable.  Always the same
- * number of passes is taken: a bound that stops when it is good enough would make t jump.  Solved by Anderson's method.
+ * number of passes is taken: a bound that stops when it is good enough would make t jump.  Solved by Anderson's method, with
+ * residuals that have been through schwarz.c.
  */
 #include <string.h>
 
@@ -19,8 +20,6 @@
 #define GROWTH 4.0     /* of the residual: then back to the best, with shorter steps */
 #define STEPS 240
 #define PATIENCE 25 /* steps without the residual falling tenfold after which it begins again from Hertz */
-#define START_CAP 5.0 /* of the start, in units of the largest overlap nearby, which counts as no less than SMALLEST */
-#define SMALLEST 0.05
 
 /* y = the right side of the equation at x, coupling weakened; returns the largest change of a force, relative. */
 static double weakened_map(nlc_iteration *q, const double *x, double *y, nlc_outcome *out)
@@ -68,33 +67,27 @@ static double weakened_map(nlc_iteration *q, const double *x, double *y, nlc_out
     return change;
 }
 
-/* The iterate, capped. */
-static void start_from_iterate(const nlc_iteration *q, double *x)
-{
-    for (int64_t c = 0; c < q->n->contact_count; c++) {
-        const double v = nlc_scaled_overlap(q, c), nearby = nlc_overlap_nearby(q, c);
-        const double cap = START_CAP * (nearby > SMALLEST ? nearby : SMALLEST);
-        x[c] = v > cap ? cap : v < -NLC_FARTHEST ? -NLC_FARTHEST : v;
-    }
-}
-
 /* Hertz's overlaps. */
 static void start_from_overlaps(const nlc_iteration *q, double *x)
 {
     for (int64_t c = 0; c < q->n->contact_count; c++) x[c] = q->overlap[c] * q->load;
 }
 
-/* The sum of the squares of those overlaps. */
-static double applied_overlaps(const nlc_iteration *q, const double *x)
+/* The sum of the squares of those overlaps; *cold: the start given is no other. */
+static double applied_overlaps(const nlc_iteration *q, const double *x, const double *given, bool *cold)
 {
-    double sum = 0;
-    for (int64_t c = 0; c < q->n->contact_count; c++) sum += x[c] > 0 ? x[c] * x[c] : 0;
+    double sums[2] = {0, 0}; /* the second one is a count */
+    for (int64_t c = 0; c < q->n->contact_count; c++) {
+        sums[0] += x[c] > 0 ? x[c] * x[c] : 0;
+        sums[1] += nlc_bits(x[c]) != nlc_bits(given[c]);
+    }
     for (int64_t s = 0; s < q->n->straddling; s++) {
         const double v = x[nlc_straddling(q->n)[s]];
-        sum -= v > 0 ? 0.5 * v * v : 0;
+        sums[0] -= v > 0 ? 0.5 * v * v : 0;
     }
-    nlc_sum_over_ranks(q->n, &sum, 1);
-    return sum;
+    nlc_sum_over_ranks(q->n, sums, 2);
+    *cold = sums[1] <= 0;
+    return sums[0];
 }
 
 /* What is told of particles, of all ranks. */
@@ -124,10 +117,10 @@ static double residual(double *x, double *y, int64_t count)
 }
 
 /*
- * It begins where the caller said, unless the residual there shows that this is nothing to go on from; then at the iterate,
- * unless that has run away; then with Hertz's overlaps, at the latest when another start has led nowhere.
+ * It begins where the caller said, unless the residual there shows that this is nothing to go on from; then at the last state on the
+ * way here that was kept; then with Hertz's overlaps, at the latest when another start has led nowhere.
  */
-enum { GIVEN, ITERATE, HERTZ };
+enum { GIVEN, KEPT, HERTZ };
 
 static bool is_good_start(int start, double norm, double applied)
 {
@@ -138,15 +131,16 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
 {
     nlc_network *n = q->n;
     const int64_t count = n->contact_count;
-    double *x = n->spare[0], *y = n->spare[1], *best = n->spare[2], *iterate = n->spare[3], mark = INFINITY;
-    int start = GIVEN, waited = 0;
+    double *x = n->spare[0], *y = n->spare[1], *best = n->spare[2], *kept = n->spare[3], mark = INFINITY;
+    int waited = 0;
+    bool cold, beyond = false;
     nlc_anderson h;
     start_from_overlaps(q, x);
-    const double applied = applied_overlaps(q, x);
-    start_from_iterate(q, iterate);
-    nlc_anderson_start(&h, n, 1, iterate, n->spare[4], NLC_FARTHEST); /* the iterate is looked at before the first step only */
+    const double applied = applied_overlaps(q, x, best, &cold); /* best is the start given */
+    int start = !cold ? GIVEN : q->kept ? KEPT : HERTZ;
+    nlc_anderson_start(&h, n, 1, kept, n->spare[4], NLC_FARTHEST); /* what is kept is looked at before the first step only */
     nlc_anderson_reset(&h, FIRST_STEP);
-    memcpy(x, best, (size_t)count * sizeof *x); /* that is the start given */
+    if (start < HERTZ) memcpy(x, start == GIVEN ? best : kept, (size_t)count * sizeof *x);
     out->status = NLC_WARNING_NOT_CONVERGED;
     for (int k = 0; k < STEPS && out->info.sweeps < n->settings.max_sweeps; k++) {
         const double change = weakened_map(q, x, y, out);
@@ -162,13 +156,17 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
         waited = norm < 0.01 * mark ? 0 : waited + 1;
         mark = waited == 0 ? norm : mark;
         if ((!h.pending && !is_good_start(start, norm, applied)) || (waited > PATIENCE && start < HERTZ)) {
-            start = start == GIVEN && !h.pending ? ITERATE : HERTZ;
-            if (start == ITERATE) memcpy(x, iterate, (size_t)count * sizeof *x);
+            start = start == GIVEN && !h.pending && q->kept ? KEPT : HERTZ;
+            if (start == KEPT) memcpy(x, kept, (size_t)count * sizeof *x);
             else start_from_overlaps(q, x);
             nlc_anderson_reset(&h, FIRST_STEP);
             waited = 0;
             mark = INFINITY;
             continue;
+        }
+        if (!beyond && out->info.lambda_upper > 1 - NLC_MARGIN) { /* small residuals below the end lead nowhere: it begins here */
+            nlc_anderson_reset(&h, FIRST_STEP);
+            beyond = true;
         }
         if (norm > GROWTH * GROWTH * h.smallest) {
             memcpy(x, best, (size_t)count * sizeof *x);
@@ -179,7 +177,9 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
             h.smallest = norm;
             memcpy(best, x, (size_t)count * sizeof *best);
         }
-        nlc_anderson_step(&h, x, y);
+        nlc_anderson_combine(&h, x, y);
+        nlc_ask_particles(q, h.old_x, y, out);
+        nlc_anderson_move(&h, x, y);
     }
     tell_weakened(n, out);
     if (out->status >= 0 && out->info.weakened > 0) out->status |= NLC_WARNING_WEAKENED;

@@ -174,8 +174,8 @@ START_TEST(beyond_the_end)
         ck_assert_int_eq(moved.status & ~NLC_WARNING_CLOSE, expected);
         ck_assert_int_eq(again.status & ~NLC_WARNING_CLOSE, expected);
         ck_assert(r.info.residual <= 1e-10 && step <= 50 * h && other <= 2e-10);
-        ck_assert_int_le(r.info.sweeps, _i < 6 ? 60 : 120);
-        ck_assert_int_le(moved.info.sweeps, _i < 6 ? 30 : 90); /* from where it was */
+        ck_assert_int_le(r.info.sweeps, _i < 6 ? 30 : 60);
+        ck_assert_int_le(moved.info.sweeps, _i < 6 ? 20 : 60); /* from where it was */
         ck_assert(factors[l] < 1 ? r.info.coupling == 1 : r.info.coupling < 1 && r.info.weakest_particle >= 0);
     }
     free(kept);
