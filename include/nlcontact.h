@@ -549,7 +549,7 @@ typedef struct nlc_options {
     int32_t model;           /* NLC_MODEL_..., see nlc_model_info */
     int32_t method;          /* NLC_METHOD_... */
     double tolerance;        /* of the forces, see nlc_solve; 0: 1e-8; more than 1 counts as 1 */
-    int64_t max_sweeps;      /* 0: 1000 */
+    int64_t max_sweeps;      /* of a solve, which never does more (on ranks 2, where this is 1); 0: 1000 */
     double prefactor;        /* G of NLC_MODEL_HALF_SPACE, other models do not look at it; 0: 1 */
     int32_t simd;            /* NLC_SIMD_... */
     int32_t points;          /* NLC_POINTS_... of NLC_MODEL_HALF_SPACE, other models do not look at it */
@@ -586,7 +586,8 @@ typedef struct nlc_info {
     int64_t blocks;         /* particles whose coefficients were computed for the upper bound: work beside the sweeps */
     int64_t left_out;       /* contacts left out of the iteration: without force, or not moved by any other force */
     int64_t clusters;       /* unconnected parts that were solved apart, each with its own number of sweeps: the most counts */
-    int64_t settled;        /* contacts in the region that was solved for first since forces changed only there; 0: everywhere */
+    int64_t settled;        /* contacts in the region that was solved for first since forces changed only there, in sweeps of its own */
+                            /*     that are not counted; 0: everywhere */
 } nlc_info;
 
 /* What there is to know of a model.  Set struct_size before the call. */

@@ -241,18 +241,20 @@ static bool refresh(nlc_iteration *q, progress *s, nlc_outcome *out)
 
 static verdict iterate(nlc_iteration *q, progress *s, nlc_outcome *out)
 {
+    /* sweeps that a step needs after its own, to be judged */
+    const int64_t more = nlc_is_linear(q->n->settings.model->shape) ? 0 : 1, most = q->n->settings.max_sweeps;
     if (!refresh(q, s, out)) return DONE;
     s->first = false;
-    if (s->repelled) {
+    if (s->repelled && out->info.sweeps < most) {
         nlc_relax(q);
         if (!refresh(q, s, out)) return DONE;
     }
     for (bool first = true;; first = false) {
         if (!first && !evaluate(q, s, out)) return DONE;
-        if (!s->exact && (q->largest_residual <= s->refresh * q->largest_force || s->since >= LINEAR_STEPS) && !refresh(q, s, out))
-            return DONE;
+        const bool due = q->largest_residual <= s->refresh * q->largest_force || s->since >= LINEAR_STEPS;
+        if (!s->exact && (due || out->info.sweeps + more >= most) && !refresh(q, s, out)) return DONE;
         const verdict v = s->exact ? judge(q, s, out) : GO_ON;
-        if (v != GO_ON || out->info.sweeps >= q->n->settings.max_sweeps) return v;
+        if (v != GO_ON || out->info.sweeps + more >= most) return v;
         if ((out->info.sweeps - s->begun > GIVE_UP && q->theta > HOPELESS) || s->critical >= 6) return BEYOND;
         if (out->info.sweeps - s->begun > LOST && q->largest_residual >= q->largest_force) return GO_ON;
         if (!advance(q, s, out)) return DONE;
@@ -300,7 +302,9 @@ void nlc_galerkin(nlc_network *n, const double *overlap, const double *normal, n
     }
     for (int step = 1; step <= LOAD_STEPS && out->status >= 0; step++) {
         nlc_start_over(out);
-        n->settings.max_sweeps = out->info.sweeps + LOAD_SWEEPS < most && step < LOAD_STEPS ? out->info.sweeps + LOAD_SWEEPS : most;
+        if (out->info.sweeps >= most - 1) step = LOAD_STEPS; /* the last one is for all of the load */
+        const int64_t enough = out->info.sweeps + LOAD_SWEEPS < most - 1 ? out->info.sweeps + LOAD_SWEEPS : most - 1;
+        n->settings.max_sweeps = step < LOAD_STEPS ? enough : most;
         solve(n, overlap, normal, (double)step / LOAD_STEPS, out);
     }
     n->settings.max_sweeps = most;

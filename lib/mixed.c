@@ -126,7 +126,7 @@ static bool iterate(nlc_iteration *q, vectors *v, nlc_outcome *out)
         double change = 0;
         const double norm = evaluate(q, v, &h, &change, out);
         if (out->status < 0) return true;
-        if (k == 0 && v->sides && nlc_on_any_rank(n, nlc_is_repelled(q))) {
+        if (k == 0 && v->sides && out->info.sweeps < n->settings.max_sweeps && nlc_on_any_rank(n, nlc_is_repelled(q))) {
             nlc_relax(q); /* by point forces on the undeformed sphere */
             start(q, v);
             continue;

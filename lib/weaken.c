@@ -142,7 +142,8 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
     nlc_anderson_reset(&h, FIRST_STEP);
     if (start < HERTZ) memcpy(x, start == GIVEN ? best : kept, (size_t)count * sizeof *x);
     out->status = NLC_WARNING_NOT_CONVERGED;
-    for (int k = 0; k < STEPS && out->info.sweeps < n->settings.max_sweeps; k++) {
+    const int64_t most = n->settings.max_sweeps - (n->settings.model->self ? 1 : 0); /* those take two sweeps a step */
+    for (int k = 0; k < STEPS && out->info.sweeps < most; k++) {
         const double change = weakened_map(q, x, y, out);
         if (out->status < 0) return;
         out->status = NLC_WARNING_NOT_CONVERGED;

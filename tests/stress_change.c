@@ -276,6 +276,44 @@ START_TEST(few_sweeps)
 }
 END_TEST
 
+/* Small scenes that take every way through the solver: contacts that push each other open, two clusters, far beyond the end. */
+static void small_scene(scene *s, int which)
+{
+    rng g = {11};
+    scene other;
+    scene_init(s);
+    scene_init(&other);
+    if (which == 0) scene_cell(s, BODY_CENTRED, 1, 1, 0.46, (const double[]){0.99, 0.985, 0.98});
+    else scene_cluster(s, &g, 12, which == 1 ? 0.05 : 0.5);
+    if (which == 2) scene_lattice(&other, SIMPLE_CUBIC, 3, 1, 0.46, 0.01, 1e-3, &g);
+    if (which == 2) append(s, &other);
+    scene_free(&other);
+}
+
+/* From nothing, from a neighbouring load and from nonsense, in every model: solve_load looks at the number of sweeps. */
+START_TEST(never_more_sweeps)
+{
+    for (int which = 0; which < 3; which++)
+        for (int l = 0; l < 4; l++)
+            for (int64_t most = 1; most <= 30; most += full() || most < 8 ? 1 : 5) {
+                const double load = (const double[]){1, 8, 30, 1000}[l];
+                scene s;
+                rng g = {3};
+                small_scene(&s, which);
+                s.options.model = _i / 2;
+                s.options.method = _i % 2 ? NLC_METHOD_FIXED_POINT : NLC_METHOD_AUTOMATIC;
+                s.options.max_sweeps = most;
+                for (int start = 0; start < 3; start++) {
+                    const trial r = solve_load(&s, start == 1 ? 1.01 * load : load, 1e-10);
+                    if (!(r.status & (NLC_WARNING_NOT_CONVERGED | NLC_WARNING_ROUNDING))) ck_assert_double_le(r.info.residual, 1e-10);
+                    for (int64_t c = 0; c < s.contacts && start == 1; c++)
+                        s.nonlocal[c] = fabs(load * s.overlap[c]) * rng_uniform(&g, -5, 5);
+                }
+                scene_free(&s);
+            }
+}
+END_TEST
+
 TCase *stress_change(void)
 {
     TCase *t = tcase_create("change");
@@ -285,5 +323,6 @@ TCase *stress_change(void)
     tcase_add_test(t, unconnected_scene);
     tcase_add_loop_test(t, there_and_back, 0, 6);
     tcase_add_loop_test(t, few_sweeps, 0, 6);
+    tcase_add_loop_test(t, never_more_sweeps, 0, 12);
     return t;
 }
