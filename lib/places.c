@@ -3,6 +3,12 @@
 #include "contact.h"
 
 #define FARTHEST 0.5 /* from the undeformed surface, in units of R */
+#define LARGEST 1e300 /* beyond what counts as a radius; sums of a few do not overflow */
+
+static double bounded(double x)
+{
+    return x > LARGEST ? LARGEST : x < -LARGEST ? -LARGEST : x;
+}
 
 void nlc_set_places(nlc_network *n, const double *side, const double *overlap, double per_overlap)
 {
@@ -11,7 +17,7 @@ void nlc_set_places(nlc_network *n, const double *side, const double *overlap, d
         n->own[e] = 0;
         if (!(nlc_yield_of(n, body) > 0)) continue;
         const double length = nlc_length_of(n, body), most = FARTHEST * length;
-        const double place = nlc_place(side[e], side[e ^ 1], overlap[c] * per_overlap);
+        const double place = nlc_place(bounded(side[e]), bounded(side[e ^ 1]), bounded(overlap[c] * per_overlap));
         n->own[e] = (place > most ? most : place < -most ? -most : place) / length;
     }
 }
