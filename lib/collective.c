@@ -3,6 +3,10 @@
 #include "collective.h"
 
 enum { EXCHANGE, SUMS, MAXIMA };
+enum { BETWEEN, LAST_BUT_ONE, LAST }; /* where a reduction is in a function */
+
+#define FAILED 1       /* the first value of a reduction, of a rank that has */
+#define LEAVING 0x1p40 /* of one that has heard of it: more than all ranks together can have failed */
 
 /* What is called where nothing is to be told. */
 static double *nothing(nlc_network *n)
@@ -53,34 +57,45 @@ static void exchange(nlc_network *n, double *side)
 }
 
 /* The reduction whose turn it is; values has room for all.  What it answered. */
-static int reduce(nlc_network *n, double *values)
+static int reduce(nlc_network *n, double *values, double first)
 {
     const bool sums = n->ranks.turn == SUMS;
     n->ranks.turn = sums ? MAXIMA : EXCHANGE;
-    values[0] = n->ranks.status != NLC_OK;
+    values[0] = first;
     return n->settings.reduce(n->settings.context, values, sums ? NLC_SUMS : NLC_MAXIMA, sums ? NLC_REDUCE_SUM : NLC_REDUCE_MAX);
 }
 
-/* After a reduction that failed here: the others go on to the next one, and have to hear of it there. */
-static void tell(nlc_network *n)
+/* One reduction more, in which nothing else is told.  What the others told, 0 if that is not known. */
+static double tell(nlc_network *n, double first)
 {
     double values[NLC_SUMS] = {0};
     if (n->ranks.turn == EXCHANGE) exchange(n, nothing(n));
-    reduce(n, values);
+    const int answer = reduce(n, values, first);
+    if (answer != 0) nlc_fail(n, NLC_ERROR_CALLBACK, answer);
+    return answer == 0 ? values[0] : 0;
+}
+
+/*
+ * After a reduction in which this rank has heard of a failure, or which failed here.  In the first case the next one is the last:
+ * there may be ranks on which this one failed, and they are in it.  In the other case the rest may have heard of another failure,
+ * and be leaving in the next one; else they hear of this one there, and leave in the one behind it.
+ */
+static void leave(nlc_network *n, bool heard, int place)
+{
+    if (heard) tell(n, LEAVING);
+    else if (tell(n, FAILED) < LEAVING && place != LAST_BUT_ONE) tell(n, LEAVING);
 }
 
 /* The next reduction, of count values behind the first one. */
-static bool next(nlc_network *n, double *values, int count, bool last)
+static bool next(nlc_network *n, double *values, int count, int place)
 {
     double all[NLC_SUMS] = {0};
     if (count > 0) memcpy(all + 1, values, (size_t)count * sizeof *all);
-    const bool known = n->ranks.status != NLC_OK;
-    const int answer = reduce(n, all);
-    if (answer != 0) {
-        nlc_fail(n, NLC_ERROR_CALLBACK, answer);
-        if (!known && !last) tell(n);
-    }
+    const bool told = n->ranks.status != NLC_OK;
+    const int answer = reduce(n, all, told ? FAILED : 0);
+    if (answer != 0) nlc_fail(n, NLC_ERROR_CALLBACK, answer);
     n->ranks.over = answer != 0 || all[0] > 0;
+    if (n->ranks.over && place != LAST) leave(n, answer == 0 || told, place);
     if (!n->ranks.over && count > 0) memcpy(values, all + 1, (size_t)count * sizeof *all);
     return !n->ranks.over;
 }
@@ -90,7 +105,7 @@ static bool wait_for(nlc_network *n, int turn)
 {
     while (!n->ranks.over && n->ranks.turn != turn)
         if (n->ranks.turn == EXCHANGE) exchange(n, nothing(n));
-        else next(n, 0, 0, false);
+        else next(n, 0, 0, BETWEEN);
     return !n->ranks.over;
 }
 
@@ -138,7 +153,7 @@ bool nlc_take_leave(nlc_network *n, const double *force, nlc_outcome *out)
     for (int64_t c = 0; force && c < n->contact_count; c++) sums[0] += force[c] > 0 ? 1 : 0;
     for (int64_t s = 0; force && s < n->straddling; s++) sums[0] -= force[nlc_straddling(n)[s]] > 0 ? 0.5 : 0;
     if (out->status < 0) nlc_give_up(n, out->status);
-    if (nlc_sum_over_ranks(n, sums, 3) && wait_for(n, MAXIMA)) next(n, 0, 0, true);
+    if (wait_for(n, SUMS) && next(n, sums, 3, LAST_BUT_ONE)) next(n, 0, 0, LAST);
     if (nlc_is_over(n, out)) return false;
     out->info.active = (int64_t)(sums[0] + 0.5);
     out->info.blocks = (int64_t)sums[1];
@@ -156,12 +171,12 @@ bool nlc_is_over(const nlc_network *n, nlc_outcome *out)
 
 bool nlc_sum_over_ranks(nlc_network *n, double *values, int count)
 {
-    return !nlc_is_shared(n) || (wait_for(n, SUMS) && next(n, values, count, false));
+    return !nlc_is_shared(n) || (wait_for(n, SUMS) && next(n, values, count, BETWEEN));
 }
 
 bool nlc_max_over_ranks(nlc_network *n, double *values, int count)
 {
-    return !nlc_is_shared(n) || (wait_for(n, MAXIMA) && next(n, values, count, false));
+    return !nlc_is_shared(n) || (wait_for(n, MAXIMA) && next(n, values, count, BETWEEN));
 }
 
 double nlc_dot_over_ranks(nlc_network *n, double here, const double *a, const double *b)

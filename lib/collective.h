@@ -3,10 +3,10 @@
  * collective.h - networks shared out among ranks: what is decided together, and how a failure becomes known.
  *
  * Every decision that changes which callback comes next is made from reduced numbers, so that all ranks make the same.  A rank
- * that fails (nlc_fail) goes on as if it had not until the next reduction, which tells all: from then on the network is over, no
- * callback is called any more, and these functions return false.  A rank whose reduction fails knows nothing but what
- * comes next, since the callbacks come in turn, always with the same counts; so it takes part once more, to tell the others.  What
- * a phase of the solver has no use for is called all the same.
+ * that fails (nlc_fail) goes on as if it had not until the next reduction, which tells all: from then on the network is over, and
+ * these functions return false.  A rank whose reduction fails knows nothing but what comes next, since the callbacks come in turn,
+ * always with the same counts; so it takes part in the next one to tell the others, who take part in one more for the sake of such
+ * ranks when they hear of a failure.  What a phase of the solver has no use for is called all the same.
  *
  * In a network that is not shared all this does nothing, and says true.
  */
