@@ -247,7 +247,7 @@ abi-dump: $(SHARED)
 FUZZ := $(patsubst $(S)/%.c,$(B)/%,$(sort $(wildcard $(S)/tests/fuzz/fuzz_*.c)))
 FUZZ_MAIN ?= $(B)/tests/fuzz/main.o
 $(B)/tests/fuzz/fuzz_%: $(B)/tests/fuzz/fuzz_%.o $(B)/tests/fuzz/fuzz.o $(FUZZ_MAIN) $(BENCH_COMMON) $(STATIC)
-	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
+	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -pthread -o $@ $^ $(LIBS)
 fuzz-programs: $(FUZZ)
 check: $(FUZZ)
 fuzz: ## look for inputs that the library cannot stand, a minute; FUZZ_RUNS=1e7 inputs for each program

@@ -184,7 +184,7 @@ bool room_intact(int number)
 
 /* ---- a watch on the environment */
 
-static unsigned mode_before;
+static _Thread_local unsigned mode_before;
 
 static unsigned mode(void)
 {

@@ -1,0 +1,371 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * fuzz_ranks.c - a network shared out between two ranks, threads of this process, and what they call together.
+ *
+ * What is demanded: both make the same calls, in turn, with the same counts, and none waits for ever; both succeed with the same
+ * warnings or both fail; both find the same forces; nothing changes on an error.  Everything is done three times: the second time a
+ * call fails on one rank, which both have to say, the third time nothing may be left of that.
+ */
+#include "fuzz.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <string.h>
+
+enum { RANKS = 2, PARTICLES = 9, CONTACTS = 16, BODIES = PARTICLES + 1, STEPS = 4 };
+enum { ODD_OVERLAPS, ODD_NORMALS, ODD_STARTS, ODD_OPTIONS, ODD_FORCES }; /* what may be arbitrary */
+enum { RADIUS, MATERIAL, FIRST_BODY, SECOND_BODY, OVERLAP, NORMAL, STIFFNESS, MEMORY, FORCE, NONLOCAL, SIDES, RESULT, CHANGE, USED };
+_Static_assert((int)RANKS * (int)USED <= (int)ROOMS, "too few rooms");
+
+static const nlc_material materials[4] = {{1e9, 0.3}, {4e9, 0}, {1e7, 0.5}, {INFINITY, 0.2}};
+
+/* All of it; a wall is the last body. */
+static struct {
+    int64_t particles, contacts;
+    int owner[BODIES]; /* of a wall: -1 */
+    double radius[PARTICLES], overlap[CONTACTS], normal[CONTACTS][3], stiffness[CONTACTS], start[CONTACTS], change[CONTACTS];
+    int32_t material[BODIES], end[CONTACTS][2];
+    nlc_options options;
+} whole;
+
+typedef struct rank {
+    int64_t particles, owned, contacts;
+    int64_t contact[CONTACTS]; /* number in the whole */
+    int64_t here[CONTACTS];    /* of the whole's: number here, -1: none */
+    int64_t reversed;          /* whether i and j are exchanged here */
+    int32_t *i, *j;
+    double *overlap, *normal, *force, *nonlocal, *sides, *result, *change;
+    nlc_network *network;
+    nlc_info info;
+    nlc_status status;
+    size_t results;            /* in result */
+    double *values;            /* in a callback: what, of what kind, how many */
+    int kind;
+    int32_t count, fixed[3];
+    int64_t calls, done, fail_at;
+    bool finished;
+} rank;
+
+static rank ranks[RANKS];
+static int task; /* what both do */
+static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+static pthread_cond_t changed = PTHREAD_COND_INITIALIZER;
+
+/* ---- callbacks */
+
+enum { EXCHANGE, SUMS, MAXIMA };
+
+static void combine_sides(void)
+{
+    for (int64_t c = 0; c < whole.contacts; c++) {
+        const int64_t a = ranks[0].here[c], b = ranks[1].here[c];
+        if (a < 0 || b < 0) continue;
+        for (int64_t e = 0; e < 2; e++) { /* from the owner of that end to the other rank */
+            double *const side[RANKS] = {ranks[0].values + 2 * a + (e ^ ranks[0].reversed), ranks[1].values + 2 * b + (e ^ ranks[1].reversed)};
+            const int from = whole.owner[whole.end[c][e]];
+            demand(isfinite(*side[from]), "a number for another rank");
+            *side[1 - from] = *side[from];
+        }
+    }
+}
+
+static void combine(int kind, int32_t count)
+{
+    if (kind == EXCHANGE) combine_sides();
+    for (int32_t k = 0; kind != EXCHANGE && k < count; k++) {
+        const double a = ranks[0].values[k], b = ranks[1].values[k];
+        demand(!isnan(a) && !isnan(b), "a number to be reduced");
+        ranks[0].values[k] = ranks[1].values[k] = kind == SUMS ? a + b : a > b ? a : b;
+    }
+}
+
+static int meet(rank *r, double *values, int32_t count, int kind)
+{
+    rank *other = &ranks[r == ranks];
+    demand(r->calls % 3 == kind && (r->fixed[kind] == 0 || r->fixed[kind] == count), "a call out of turn");
+    r->fixed[kind] = count;
+    pthread_mutex_lock(&mutex);
+    r->values = values, r->count = count, r->kind = kind;
+    if (++r->calls == other->calls) {
+        demand(other->kind == kind && (kind == EXCHANGE || other->count == count), "what the other rank calls");
+        combine(kind, count);
+        r->done = other->done = r->calls;
+        pthread_cond_broadcast(&changed);
+    }
+    while (r->done < r->calls && !other->finished) pthread_cond_wait(&changed, &mutex);
+    demand(r->done == r->calls, "the other rank is no longer there");
+    pthread_mutex_unlock(&mutex);
+    if (r->calls != r->fail_at) return 0;
+    for (int64_t e = 0; kind == EXCHANGE && e < 2 * r->contacts; e++) /* a ghost's side; all of a reduction */
+        if ((e % 2 ? r->j : r->i)[e / 2] >= r->owned && (e % 2 ? r->j : r->i)[e / 2] < r->particles) values[e] = NAN;
+    for (int32_t k = 0; kind != EXCHANGE && k < count; k++) values[k] = NAN;
+    return 1000 + (int)(r - ranks);
+}
+
+static int exchange(void *context, double *side)
+{
+    return meet(context, side, 0, EXCHANGE);
+}
+
+static int reduce(void *context, double *values, int32_t count, int32_t operation)
+{
+    return meet(context, values, count, operation == NLC_REDUCE_SUM ? SUMS : MAXIMA);
+}
+
+/* ---- making */
+
+static void make_whole(bytes *in, uint64_t odd)
+{
+    memset(&whole, 0, sizeof whole);
+    whole.particles = 1 + (int64_t)(take(in, 1) % PARTICLES);
+    whole.contacts = (int64_t)(take(in, 1) % (CONTACTS + 1));
+    for (int64_t k = 0; k <= whole.particles; k++) {
+        const uint64_t kind = take(in, 1);
+        whole.owner[k] = k < whole.particles ? (int)(kind & 1) : -1;
+        whole.material[k] = (int32_t)(kind >> 1 & 1) + 2 * (kind >> 2 > 60);
+        if (k < whole.particles) whole.radius[k] = 1 + (double)(kind >> 3) / 31;
+    }
+    for (int64_t c = 0; c < whole.contacts; c++) {
+        double *n = whole.normal[c];
+        whole.end[c][0] = (int32_t)((int64_t)take(in, 1) % whole.particles);
+        whole.end[c][1] = (int32_t)((int64_t)take(in, 1) % (whole.particles + 1));
+        whole.overlap[c] = take_bit(in, odd, ODD_OVERLAPS) ? take_any(in) : (double)((int64_t)take(in, 2) - 20000) / 65536 * 0.15;
+        take_unit(in, (uint64_t)c, n);
+        if (take_bit(in, odd, ODD_NORMALS)) n[take(in, 1) % 3] = take_any(in);
+        whole.stiffness[c] = 1e9 * (1 + (double)(c % 3));
+        whole.change[c] = 1e-4 * (double)(c % 5 - 2);
+    }
+    nlc_options *o = &whole.options;
+    const uint64_t kind = take(in, 1), sweeps = take(in, 1);
+    *o = (nlc_options){.struct_size = sizeof *o, .model = (int32_t)(kind % 6), .method = kind / 6 % 8 == 1, .points = (int32_t)(kind >> 7)};
+    o->tolerance = ldexp(1, -(int)(take(in, 1) % 50));
+    o->max_sweeps = 1 + (int64_t)(sweeps / 2);
+    if (take_bit(in, odd, ODD_OPTIONS)) o->prefactor = (double)take(in, 1) / 64;
+    if (take_bit(in, odd, ODD_OPTIONS)) o->stiffness = whole.stiffness;
+}
+
+#define ARRAY(r, number, count, type) ((type *)room((int)((r) - ranks) * USED + (number), (size_t)(count) * sizeof(type), true, 0))
+
+/* Numbers of the bodies of a rank: its own particles, ghosts, the wall; -1: not there. */
+static void number(rank *r, int32_t *place)
+{
+    const int own = (int)(r - ranks);
+    bool wanted[BODIES] = {false};
+    for (int64_t c = 0; c < whole.contacts; c++) {
+        const int32_t *e = whole.end[c];
+        if (whole.owner[e[0]] == own || whole.owner[e[1]] == own) wanted[e[0]] = wanted[e[1]] = true;
+    }
+    r->particles = 0;
+    for (int64_t k = 0; k < whole.particles; k++) place[k] = -1;
+    for (int pass = 0; pass < 2; pass++) {
+        for (int64_t k = 0; k < whole.particles; k++)
+            if (pass == 0 ? whole.owner[k] == own : wanted[k] && whole.owner[k] != own) place[k] = (int32_t)r->particles++;
+        if (pass == 0) r->owned = r->particles;
+    }
+    place[whole.particles] = (int32_t)r->particles;
+}
+
+/* The network of a rank; whether there is one. */
+static bool make_rank(rank *r, bytes *in, uint64_t odd)
+{
+    int32_t place[BODIES];
+    *r = (rank){.reversed = (int64_t)(take(in, 1) & 1)};
+    number(r, place);
+    for (int64_t c = 0; c < whole.contacts; c++) {
+        const bool here = whole.owner[whole.end[c][0]] == r - ranks || whole.owner[whole.end[c][1]] == r - ranks;
+        r->here[c] = here ? r->contacts : -1;
+        if (here) r->contact[r->contacts++] = c;
+    }
+    const int64_t n = r->contacts;
+    double *radius = ARRAY(r, RADIUS, r->particles, double), *k = ARRAY(r, STIFFNESS, n, double);
+    int32_t *material = ARRAY(r, MATERIAL, r->particles, int32_t);
+    for (int64_t b = 0; b < whole.particles; b++)
+        if (place[b] >= 0) radius[place[b]] = whole.radius[b], material[place[b]] = whole.material[b];
+    r->i = ARRAY(r, FIRST_BODY, n, int32_t), r->j = ARRAY(r, SECOND_BODY, n, int32_t);
+    r->overlap = ARRAY(r, OVERLAP, n, double), r->normal = ARRAY(r, NORMAL, 3 * n, double);
+    r->force = ARRAY(r, FORCE, n, double), r->nonlocal = ARRAY(r, NONLOCAL, n, double);
+    r->sides = ARRAY(r, SIDES, 2 * n, double), r->change = ARRAY(r, CHANGE, n, double);
+    r->results = (size_t)(n > r->particles ? n : r->particles > 0 ? r->particles : 1);
+    r->result = ARRAY(r, RESULT, r->results, double);
+    for (int64_t c = 0; c < n; c++) {
+        const int64_t w = r->contact[c];
+        r->i[c] = place[whole.end[w][r->reversed]], r->j[c] = place[whole.end[w][!r->reversed]];
+        for (int x = 0; x < 3; x++) r->normal[3 * c + x] = r->reversed ? -whole.normal[w][x] : whole.normal[w][x];
+        r->overlap[c] = whole.overlap[w], r->change[c] = whole.change[w], k[c] = whole.stiffness[w];
+        r->force[c] = r->sides[2 * c] = r->sides[2 * c + 1] = 0;
+        r->nonlocal[c] = take_bit(in, odd, ODD_STARTS) ? take_any(in) : 0;
+    }
+    nlc_options o = whole.options;
+    o.owned_particles = r->owned, o.exchange = exchange, o.reduce = reduce, o.context = r;
+    if (o.stiffness) o.stiffness = k;
+    if (take_bit(in, odd, ODD_OPTIONS)) o.tolerance *= 1 + (double)(take(in, 1) % 4);
+    const nlc_particles p = {.struct_size = sizeof p, .count = r->particles, .radius = radius, .material = material, .materials = materials,
+                             .material_count = 4, .wall_material = &whole.material[whole.particles], .wall_count = 1};
+    const size_t size = nlc_network_size(&p, n, &o);
+    return CALL(nlc_network_init(&r->network, ARRAY(r, MEMORY, size, char), size, &p, r->i, r->j, n, &o, NULL), 0, NLC_ERROR_RIGID_RIGID,
+                NLC_ERROR_RANGE) == NLC_OK;
+}
+
+/* ---- what is called */
+
+enum { SOLVE, SWEEP, ENERGY, TANGENT, INVERSE, BOUND, TASKS };
+
+static nlc_status perform(rank *r)
+{
+    switch (task) {
+    case SOLVE: return nlc_solve(r->network, r->force, r->nonlocal, r->overlap, r->normal, &r->info);
+    case SWEEP: return nlc_sweep(r->network, r->sides, r->force, r->overlap, r->normal, &r->info);
+    case ENERGY: return nlc_energy(r->network, r->result, r->force, r->overlap, r->normal, &r->info);
+    case TANGENT: return nlc_tangent(r->network, r->result, r->change, r->force, r->normal, &r->info);
+    case INVERSE: return nlc_tangent_inverse(r->network, r->result, r->change, r->force, r->normal, &r->info);
+    default: return nlc_tangent_bound(r->network, r->result, r->force, r->normal, &r->info);
+    }
+}
+
+static void *begin(void *context)
+{
+    rank *r = context;
+    watch();
+    r->status = perform(r);
+    unwatch("a collective function");
+    pthread_mutex_lock(&mutex);
+    r->finished = true;
+    pthread_cond_broadcast(&changed);
+    pthread_mutex_unlock(&mutex);
+    return NULL;
+}
+
+/* Both at the same time; where and at which call one fails, 0: none. */
+static void run(int where, int64_t at)
+{
+    pthread_t thread;
+    for (int q = 0; q < RANKS; q++) {
+        rank *r = &ranks[q];
+        r->info = (nlc_info){.struct_size = sizeof r->info};
+        r->calls = r->done = 0, r->finished = false;
+        r->fail_at = q == where ? at : 0;
+        memset(r->fixed, 0, sizeof r->fixed);
+    }
+    demand(pthread_create(&thread, NULL, begin, &ranks[1]) == 0, "pthread_create");
+    begin(&ranks[0]);
+    pthread_join(thread, NULL);
+    demand(ranks[0].calls == ranks[1].calls, "calls of the ranks");
+}
+
+/* ---- what came of it */
+
+typedef struct kept {
+    double force[CONTACTS], nonlocal[CONTACTS], sides[2 * CONTACTS], result[CONTACTS];
+    nlc_status status;
+    nlc_info info;
+    int64_t calls;
+} kept;
+
+static void keep(const rank *r, kept *k)
+{
+    const size_t n = (size_t)r->contacts * sizeof(double);
+    memset(k, 0, sizeof *k);
+    copy_bytes(k->force, r->force, n), copy_bytes(k->nonlocal, r->nonlocal, n), copy_bytes(k->sides, r->sides, 2 * n);
+    copy_bytes(k->result, r->result, r->results * sizeof(double));
+    k->status = r->status, k->info = r->info, k->calls = r->calls;
+}
+
+static void put_back(const rank *r, const kept *k)
+{
+    const size_t n = (size_t)r->contacts * sizeof(double);
+    copy_bytes(r->force, k->force, n), copy_bytes(r->nonlocal, k->nonlocal, n), copy_bytes(r->sides, k->sides, 2 * n);
+    copy_bytes(r->result, k->result, r->results * sizeof(double));
+}
+
+static bool is_same(const rank *r, const kept *k)
+{
+    kept now;
+    keep(r, &now);
+    return memcmp(&now, k, offsetof(kept, status)) == 0;
+}
+
+/* One without callbacks that fail. */
+static void look(const kept *before)
+{
+    const rank *a = &ranks[0], *b = &ranks[1];
+    demand((a->status < 0) == (b->status < 0), "an error on one rank alone");
+    demand(a->status != NLC_ERROR_REMOTE || b->status != NLC_ERROR_REMOTE, "an error of nobody");
+    for (int q = 0; q < RANKS; q++) {
+        static const nlc_status errors[] = {NLC_ERROR_NO_POTENTIAL, NLC_ERROR_OPTION, NLC_ERROR_OVERLAP, NLC_ERROR_NORMAL, NLC_ERROR_NONLOCAL,
+                                            NLC_ERROR_FORCE, NLC_ERROR_COINCIDENT, NLC_ERROR_RANGE, NLC_ERROR_UNSTABLE, NLC_ERROR_REMOTE, 0};
+        const rank *r = &ranks[q];
+        bool known = r->status >= 0 && r->status < 16;
+        for (const nlc_status *e = errors; *e != 0; e++) known = known || r->status == *e;
+        demand(known, "the status");
+        if (r->status < 0) demand(is_same(r, &before[q]), "results after an error");
+        else if (task == SOLVE) demand(all_finite(r->force, (size_t)r->contacts) && all_finite(r->nonlocal, (size_t)r->contacts), "results");
+        else if (task == SWEEP) demand(all_finite(r->sides, 2 * (size_t)r->contacts), "results");
+        else demand(all_finite(r->result, task == ENERGY ? 1 : (size_t)(task == BOUND ? r->particles : r->contacts)), "results");
+    }
+    if (a->status < 0) return;
+    demand(a->status == b->status && a->info.sweeps == b->info.sweeps && a->info.active == b->info.active &&
+               a->info.weakened == b->info.weakened && same_bytes(&a->info.residual, &b->info.residual, sizeof(double)) &&
+               same_bytes(&a->info.lambda_upper, &b->info.lambda_upper, sizeof(double)),
+           "what both say of the whole");
+    for (int64_t c = 0; task == SOLVE && c < whole.contacts; c++) {
+        const int64_t k = a->here[c], m = b->here[c];
+        if (k >= 0 && m >= 0) demand(fabs(a->force[k] - b->force[m]) <= 1e-9 * fabs(a->force[k]), "the forces on both ranks");
+    }
+}
+
+/* One with a call that failed on a rank, and what came of it without. */
+static void look_at_failure(int where, int64_t at, const kept *before, const kept *without)
+{
+    const bool last = at == without[0].calls;
+    for (int q = 0; q < RANKS; q++) {
+        const rank *r = &ranks[q];
+        if (at > without[q].calls || (last && q != where && r->status == without[q].status)) {
+            demand(r->status == without[q].status && is_same(r, &without[q]), "what no failure concerns");
+            continue;
+        }
+        demand(r->status == (q == where ? NLC_ERROR_CALLBACK : NLC_ERROR_REMOTE) || (r->status < 0 && r->status == without[q].status) ||
+                   r->status == NLC_ERROR_OPTION, "the status of a failure");
+        demand(r->status != NLC_ERROR_CALLBACK || r->info.culprit == 1000 + q, "what the callback returned");
+        demand(r->calls <= at + 3 && is_same(r, &before[q]), "results after a failure");
+    }
+}
+
+static void step(bytes *in, uint64_t odd)
+{
+    const int where = (int)(take(in, 1) & 1);
+    const int64_t at = 1 + (int64_t)take(in, 1);
+    kept before[RANKS], without[RANKS];
+    for (int q = 0; q < RANKS; q++) keep(&ranks[q], &before[q]);
+    run(0, 0);
+    look(before);
+    for (int q = 0; q < RANKS; q++) keep(&ranks[q], &without[q]), put_back(&ranks[q], &before[q]);
+    run(where, at);
+    look_at_failure(where, at, before, without);
+    for (int q = 0; q < RANKS; q++) put_back(&ranks[q], &before[q]);
+    run(0, 0);
+    for (int q = 0; q < RANKS; q++)
+        demand(is_same(&ranks[q], &without[q]) && ranks[q].status == without[q].status && ranks[q].calls == without[q].calls &&
+                   same_bytes(&ranks[q].info, &without[q].info, sizeof(nlc_info)),
+               "what a failure leaves");
+    for (int q = 0; q < RANKS; q++)
+        for (int64_t c = 0; c < ranks[q].contacts; c++) { /* the next step's state */
+            if (take_bit(in, odd, ODD_FORCES)) ranks[q].force[c] = take_any(in);
+            ranks[q].overlap[c] *= 1 + 1e-3 * (double)(ranks[q].contact[c] % 3);
+        }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    bytes in = {data, size};
+    const uint64_t odd = take(&in, 1);
+    make_whole(&in, odd);
+    bool both = true;
+    for (int q = 0; q < RANKS; q++) both = make_rank(&ranks[q], &in, odd) && both;
+    task = SOLVE;
+    for (int k = 0; both && k < STEPS && (k == 0 || in.left > 0); k++) {
+        if (k > 0) task = (int)(take(&in, 1) % TASKS);
+        step(&in, odd);
+    }
+    for (int k = 0; k < RANKS * USED; k++) demand(room_intact(k), "what lies around an array");
+    return 0;
+}
