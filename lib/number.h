@@ -60,12 +60,12 @@ static inline bool nlc_is_positive_or_infinite(double x)
 }
 
 /*
- * size / scale, at most 1e10, for 0 <= size <= 1e17; a scale near 0 counts as 1e-290.  Without a condition on the division:
- * compilers take divisions out of their conditions, and then they divide by zero.
+ * size / scale, at most 1e10, for size >= 0; a scale near 0 counts as 1e-290, a size above 1e17 as that.  Without a condition on the
+ * division: compilers take divisions out of their conditions, and then they divide by zero.
  */
 static inline double nlc_ratio(double size, double scale)
 {
-    const double r = size / (scale + 1e-290);
+    const double r = (size < 1e17 ? size : 1e17) / (scale + 1e-290);
     return r < 1e10 ? r : 1e10;
 }
 
