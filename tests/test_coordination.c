@@ -435,6 +435,23 @@ END_TEST
 /* ---- solutions */
 
 /* Forces, and displacements also of contacts that stay open, as by all pairs to the tolerance and a tenth of it. */
+static void compare_results(const scene *s, const scene *t, const char *when)
+{
+    double top = 0, farthest = 0, error = 0, off = 0;
+    for (int64_t c = 0; c < s->contacts; c++) {
+        top = fmax(top, t->force[c]);
+        farthest = fmax(farthest, fabs(t->nonlocal[c]));
+        error = fmax(error, fabs(s->force[c] - t->force[c]));
+        off = fmax(off, fabs(s->nonlocal[c] - t->nonlocal[c]));
+    }
+    if (verbose())
+        printf("model %d, Z %d, tolerance %.0e, %s: forces to %.1e, displacements to %.1e\n", s->options.model, (int)s->contacts,
+               s->options.tolerance, when, error / top, off / farthest);
+    ck_assert(error <= s->options.tolerance * top);
+    ck_assert(off <= 2 * s->options.tolerance * farthest);
+}
+
+/* From zeros, and again when all is pressed deeper: then contacts that stayed open are left out, and looked at in the end. */
 static void compare_solutions(int32_t model, int count, double tolerance, double candidates)
 {
     rng g = {49};
@@ -445,25 +462,22 @@ static void compare_solutions(int32_t model, int count, double tolerance, double
         if (rng_uniform(&g, 0, 1) < candidates) s.overlap[c] = -0.3 * s.radius[1];
     scene t = copy_of(&s);
     t.options.tolerance = 1e-13;
-    nlc_info a, b;
-    nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, &a), NLC_OK));
+    nlc_info a = {.struct_size = sizeof a}, b = a;
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
     ck_assert_int_eq(scene_build(&t), NLC_OK);
     t.network->room_size = t.network->part->room_size = 0; /* no trees */
-    ck_assert_int_eq(scene_solve(&t, &b), NLC_OK);
-    double top = 0, farthest = 0, error = 0, off = 0;
-    for (int64_t c = 0; c < s.contacts; c++) {
-        top = fmax(top, t.force[c]);
-        farthest = fmax(farthest, fabs(t.nonlocal[c]));
-        error = fmax(error, fabs(s.force[c] - t.force[c]));
-        off = fmax(off, fabs(s.nonlocal[c] - t.nonlocal[c]));
+    for (int step = 0; step < 2; step++) {
+        nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, &a), NLC_OK));
+        ck_assert_int_eq(scene_solve(&t, &b), NLC_OK);
+        compare_results(&s, &t, step ? "pressed deeper" : "from zeros");
+        ck_assert(step == 0 || candidates < 0.3 || a.left_out > 0);
+        for (int64_t c = 0; c < s.contacts; c++) {
+            if (s.overlap[c] > 0) s.overlap[c] *= 1.2;
+            t.overlap[c] = s.overlap[c];
+        }
     }
-    if (verbose())
-        printf("model %d, Z %d, tolerance %.0e: %jd and %jd sweeps, forces to %.1e, displacements to %.1e\n", model, count,
-               tolerance, (intmax_t)a.sweeps, (intmax_t)b.sweeps, error / top, off / farthest);
     ck_assert_int_gt(s.network->evaluations + s.network->part->evaluations, 0);
     ck_assert_int_eq(t.network->evaluations + t.network->part->evaluations, 0);
-    ck_assert(error <= tolerance * top);
-    ck_assert(off <= 2 * tolerance * farthest);
     scene_free(&s);
     scene_free(&t);
 }
