@@ -153,6 +153,49 @@ START_TEST(particles_and_contacts)
 }
 END_TEST
 
+/* The stiffness of a contact that double cannot hold, where the particle's compliance can be held. */
+START_TEST(stiffness_out_of_range)
+{
+    static const double radius = 1e30;
+    static const nlc_material materials[2] = {{1e300, 0.3}, {INFINITY, 0}};
+    const int32_t i = 0, j = 1, rigid = 1;
+    const nlc_particles p = {.struct_size = sizeof p, .count = 1, .radius = &radius, .materials = materials, .material_count = 2,
+                             .wall_material = &rigid, .wall_count = 1};
+    double memory[1000];
+    nlc_network *n = NULL;
+    nlc_info info = {.struct_size = sizeof info};
+    nlc_assert_quiet(ck_assert_int_eq(nlc_network_init(&n, memory, sizeof memory, &p, &i, &j, 1, NULL, &info), NLC_ERROR_RANGE));
+    ck_assert_int_eq(info.culprit, 0);
+    ck_assert_ptr_null(n);
+}
+END_TEST
+
+/* An open contact in the same direction as one with a force, left out of the iteration since last time it was far from closing. */
+START_TEST(same_direction_left_out)
+{
+    enum { Z = 12 };
+    scene s;
+    nlc_info info = {.struct_size = sizeof info};
+    scene_init(&s);
+    const int32_t m = scene_material(&s, 1e9, 0.3);
+    scene_particle(&s, 1, m);
+    for (int c = 0; c < Z; c++) {
+        const double turn = 6.283185307179586 * c / Z;
+        scene_particle(&s, 0.2, m);
+        scene_contact(&s, 0, c + 1, c % 3 ? -0.1 : 1e-3, cos(turn), sin(turn), 0);
+    }
+    ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+    for (int64_t c = 0; c < Z; c++) s.overlap[c] *= s.overlap[c] > 0 ? 1.5 : 1;
+    ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+    ck_assert_int_gt(info.left_out, 0);
+    for (int64_t c = 0; c < Z; c++) s.overlap[c] *= s.overlap[c] > 0 ? 1.5 : 1;
+    memcpy(s.normal + 3 * 4, s.normal + 3 * 3, 3 * sizeof *s.normal); /* 3 has a force, 4 has none */
+    nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, &info), NLC_ERROR_COINCIDENT));
+    ck_assert_int_eq(info.culprit, 4);
+    scene_free(&s);
+}
+END_TEST
+
 START_TEST(counts_strides_and_memory)
 {
     WITH(f.s.contacts, -1, init(), NLC_ERROR_COUNT, 6);
@@ -845,6 +888,8 @@ int main(void)
     TCase *t = tcase_create("errors");
     tcase_add_checked_fixture(t, setup, teardown);
     tcase_add_test(t, particles_and_contacts);
+    tcase_add_test(t, stiffness_out_of_range);
+    tcase_add_test(t, same_direction_left_out);
     tcase_add_test(t, counts_strides_and_memory);
     tcase_add_test(t, null_pointers);
     tcase_add_test(t, options);
