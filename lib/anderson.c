@@ -47,7 +47,10 @@ static void least_squares(const nlc_anderson *h, const double *r, double s[NLC_C
     } else {
         multiply(h, r, A, s);
     }
-    for (int i = 0; i < h->count; i++) unit[i] = A[i][i] > 1e-280 ? 1 / sqrt(A[i][i]) : 0;
+    for (int i = 0; i < h->count; i++) { /* no choice between quotients, see small.c */
+        const double some = A[i][i] > 1e-280;
+        unit[i] = some / sqrt(A[i][i] + (1 - some));
+    }
     for (int i = 0; i < h->count; i++) {
         s[i] *= unit[i];
         for (int j = 0; j <= i; j++) {

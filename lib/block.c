@@ -22,7 +22,7 @@ static bool is_self(const nlc_network *n, int64_t e)
 static double weight_of(const nlc_network *n, int64_t e)
 {
     const double share = n->share[e];
-    return share > 0 ? n->slope[e >> 1] / share : 0;
+    return (share > 0) * n->slope[e >> 1] / (share + (share <= 0));
 }
 
 /* What contacts do to themselves. */

@@ -12,7 +12,8 @@
 /* Shares in the ratio of a to b, by the same roundings whichever side is called i. */
 static void set_shares(nlc_network *n, int64_t c, double a, double b)
 {
-    double s = a > 0 ? a / (a + b) : 0, t = b > 0 ? b / (a + b) : 0;
+    const double sum = a + b, some = sum + (sum <= 0); /* neither yields between a rigid body and a wall */
+    double s = a / some, t = b / some;
     if (a > 0 && b > 0 && (s < SHARE_MIN || t < SHARE_MIN)) {
         s = s < t ? SHARE_MIN : 1 - SHARE_MIN;
         t = t < SHARE_MIN ? SHARE_MIN : 1 - SHARE_MIN;
@@ -54,14 +55,14 @@ static bool is_below(nlc_network *n, const double *normal, int64_t k, double bet
     return nlc_block_is_below(n, normal, k, beta);
 }
 
-/* (U D / share)^1/2 of each side, into network->side. */
+/* (U D / share)^1/2 of each side, into network->side; no share, no U. */
 static void set_roots(nlc_network *n)
 {
     for (int64_t c = 0; c < n->contact_count; c++)
         for (int side = 0; side < 2; side++) {
             const int64_t body = side == 0 ? n->i[c] : n->j[c];
             const double share = n->share[2 * c + side];
-            n->side[2 * c + side] = share > 0 ? sqrt(n->unit * nlc_yield_of(n, body) * n->slope[c] / share) : 0;
+            n->side[2 * c + side] = sqrt(n->unit * nlc_yield_of(n, body) * n->slope[c] / (share + (share <= 0)));
         }
 }
 

@@ -19,11 +19,12 @@ static double alone(const nlc_network *n, const double *overlap, int64_t c)
 static double radius_of(const nlc_network *n, int64_t c, int64_t particle, const double *overlap)
 {
     const int64_t other = n->i[c] == particle ? n->j[c] : n->i[c];
+    const bool wall = other >= n->particle_count;
     const double x = alone(n, overlap, c), R = n->radius[particle];
-    const double S = other < n->particle_count ? n->radius[other] : INFINITY, larger = R > S ? R : S;
+    const double r = wall ? 0 : R, s = wall ? 1 : n->radius[other], larger = r > s ? r : s;
     const double quarter = 0.125 * (x + fabs(x)), capped = quarter < R ? quarter : R; /* a beyond 2 R is as good as 2 R */
-    /* R_eff / R = 1 / (1 + R/S), by ratios that are at most 1 */
-    return 2 * sqrt(capped / R * (R < S ? 1 / (1 + R / larger) : S / larger / (1 + S / larger)));
+    /* R_eff / R = s / (r + s), by ratios that are at most 1; of a choice between quotients clang 16 computes both */
+    return 2 * sqrt(capped / R * (s / larger / (r / larger + s / larger)));
 }
 
 /* By how much the square of a + b exceeds that of the distance, summed over the pairs where it does.  v + |v| is no choice. */
@@ -81,7 +82,7 @@ static double larger_reduced(const nlc_network *n, const double *overlap, int64_
     if (x <= largest) return largest; /* what it is reduced to is less */
     const int64_t i = n->i[c], j = n->j[c];
     const double R = i < n->particle_count ? n->radius[i] : INFINITY, S = j < n->particle_count ? n->radius[j] : INFINITY;
-    const double reduced = x / (1 + (R < S ? R / S : S / R));
+    const double reduced = x / (1 + (R < S ? R : S) / (R < S ? S : R));
     return reduced > largest ? reduced : largest;
 }
 

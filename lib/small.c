@@ -50,7 +50,10 @@ int nlc_ritz(int n, nlc_small M, nlc_small K, nlc_small Y, double theta[NLC_DIRE
     nlc_small A, V, T, H, U;
     double unit[NLC_DIRECTIONS];
     int rank = 0;
-    for (int i = 0; i < n; i++) unit[i] = M[i][i] > 1e-290 ? 1 / sqrt(M[i][i]) : 0;
+    for (int i = 0; i < n; i++) { /* no choice: of one clang 16 makes a vector that divides by the root of both sides */
+        const double some = M[i][i] > 1e-290;
+        unit[i] = some / sqrt(M[i][i] + (1 - some));
+    }
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) A[i][j] = M[i][j] * unit[i] * unit[j];
     diagonalise(n, A, V);

@@ -33,7 +33,7 @@ static bool set_slopes(nlc_network *n, const double *force, const largest *top, 
     nlc_set_units(n, -2 * ((u.force - u.stiffness) / 3), -u.stiffness);
     for (int64_t c = 0; c < n->contact_count; c++) {
         const double k = nlc_join(n->stiffness[c], -u.stiffness), p = nlc_join(force[c], -u.force);
-        n->slope[c] = p > 0 && k > 1e-150 ? 1.5 * k * cbrt(p / k) : 0;
+        n->slope[c] = p > 0 && k > 1e-150 ? 1.5 * k * cbrt(p / (k + 1e-290)) : 0;
     }
     return true;
 }
@@ -101,7 +101,7 @@ static void solve_linear(nlc_network *n, double *x, double *b, const double *nor
         rr = dot(n, b, b);
         for (int64_t c = 0; c < count; c++) p[c] = b[c] + rr / before * p[c];
     }
-    o->info.residual = first > 0 ? sqrt(rr / first) : 0;
+    o->info.residual = sqrt(rr / (first + (first <= 0)));
 }
 
 /* What the four functions check; the vector may be NULL where there is none. */

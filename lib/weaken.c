@@ -44,7 +44,7 @@ static double weakened_map(nlc_iteration *q, const double *x, double *y, nlc_out
     out->info.coupling = 1;
     out->info.weakest_particle = -1;
     for (int64_t k = 0; k < n->particle_count; k++) {
-        n->weakening[k] = n->bound[k] > 1 - NLC_MARGIN ? (1 - NLC_MARGIN) / n->bound[k] : 1;
+        n->weakening[k] = n->bound[k] > 1 - NLC_MARGIN ? (1 - NLC_MARGIN) / (n->bound[k] + 1e-290) : 1;
         if (k >= n->owned) continue;
         out->info.weakened += n->weakening[k] < 1;
         if (n->weakening[k] >= out->info.coupling) continue;
