@@ -6,7 +6,9 @@
  *
  * The change of the forces from one sweep to the next is r, its ratio to the change before is the rate; what is still to
  * come is r (rate + rate^2 + ...) = r rate / (1 - rate).  A rate measured in the largest norm is not the same everywhere: on
- * packings that made the error up to 1.2 times this; the largest of three rates and twice the sum are taken.
+ * packings that made the error up to 1.2 times this; the largest of three rates and twice the sum are taken.  Where a contact is
+ * pushed in by some and out by others, changes may grow in every other sweep and fall all the same: then the rate is that of two
+ * sweeps at a time.
  */
 #include <float.h>
 #include <string.h>
@@ -21,8 +23,8 @@
 #define ROUNDING (64 * DBL_EPSILON) /* changes below are noise and say nothing of the rate */
 
 typedef struct state {
-    double change, last_change; /* r of this sweep and the one before */
-    double rate[3]; /* the last ones */
+    double change, last_change, earlier_change; /* r of this sweep and the two before */
+    double rate[3], rate_of_two[2]; /* the last ones, of one sweep and of two */
     double smallest; /* smallest r so far; network->spare[0] is where it was met */
     double highest;  /* largest overlap plus displacement */
     int64_t worst;
@@ -80,6 +82,13 @@ static void copy_displacements(const nlc_network *n, double *to, const double *f
     memcpy(to, from, (size_t)n->contact_count * sizeof *to);
 }
 
+/* Sum of what is to come, if it falls by such a rate after the change. */
+static double sum_of(double change, double rate)
+{
+    const double sum = SAFETY * change * rate / (fabs(1 - rate) + 1e-30); /* 1 - rate is 0 or above 1e-16 */
+    return rate < SLOWEST_RATE ? sum : INFINITY;
+}
+
 /* Estimated error of the forces after this sweep. */
 static double remaining(state *s, int64_t sweeps)
 {
@@ -87,12 +96,14 @@ static double remaining(state *s, int64_t sweeps)
         s->rate[2] = s->rate[1];
         s->rate[1] = s->rate[0];
         s->rate[0] = nlc_ratio(s->change, s->last_change);
+        s->rate_of_two[1] = s->rate_of_two[0];
+        s->rate_of_two[0] = sweeps >= 3 ? nlc_ratio(s->change, s->earlier_change) : 1;
     }
     double rate = s->rate[0] > s->rate[1] ? s->rate[0] : s->rate[1];
     rate = rate > s->rate[2] ? rate : s->rate[2];
-    const double error = SAFETY * s->change * rate / (1 - (rate < SLOWEST_RATE ? rate : SLOWEST_RATE));
+    const double two = s->rate_of_two[0] > s->rate_of_two[1] ? s->rate_of_two[0] : s->rate_of_two[1];
     if (s->change <= 0) return 0;
-    return rate < SLOWEST_RATE ? error : INFINITY;
+    return rate < SLOWEST_RATE ? sum_of(s->change, rate) : sum_of(s->change + s->last_change, two);
 }
 
 static void finish(nlc_outcome *out, nlc_status status, double residual, int64_t worst)
@@ -104,8 +115,8 @@ static void finish(nlc_outcome *out, nlc_status status, double residual, int64_t
 
 void nlc_fixed_point(nlc_network *n, const double *overlap, const double *normal, nlc_outcome *out)
 {
-    const double runaway = RUNAWAY * (n->top.overlap);
-    state s = {.rate = {FIRST_RATE, FIRST_RATE, FIRST_RATE}, .smallest = INFINITY};
+    const double runaway = RUNAWAY * n->top.overlap;
+    state s = {.rate = {FIRST_RATE, FIRST_RATE, FIRST_RATE}, .rate_of_two = {1, 1}, .smallest = INFINITY};
     const bool places = n->settings.model->shape == NLC_SHAPE_PLACE;
     nlc_set_units(n, 0, 0);
     start(n, overlap);
@@ -115,6 +126,7 @@ void nlc_fixed_point(nlc_network *n, const double *overlap, const double *normal
         if (places) nlc_set_places(n, n->side, overlap, 1);
         nlc_status status = nlc_displace(n, NLC_OF_FORCES, n->force, normal, &out->info.culprit);
         if (status != NLC_OK) return finish(out, status, 0, -1);
+        s.earlier_change = s.last_change;
         s.last_change = s.change;
         nlc_exchange_particles(n, n->largest);
         update_forces(n, overlap, runaway, &s);

@@ -7,9 +7,9 @@ run() { ${EMULATOR-} "$B/tests/load/$1" "$2" >"$tmp/log" 2>&1 || { cat "$tmp/log
 tmp=$(mktemp -d)
 trap 'rm -rf "$tmp"' EXIT
 trap 'exit 1' HUP INT TERM
-run solves 20000
+run solves 25000
 run contacts 1e5
-done_here='20000 small networks, 1e5 contacts in one'
+done_here='25000 small networks, 1e5 contacts in one'
 if [ -z "${EMULATOR-}" ]; then # which maps memory in its own way
     run counts 1e7
     done_here="$done_here, 1e7 in arrays"
