@@ -564,6 +564,28 @@ static void compare_carried(int64_t n, int64_t m, uint64_t keys, uint64_t seed)
     for (size_t k = size / 8; k < sizeof memory / 8; k++) ck_assert(memory[k] == UINT64_C(0xa5a5a5a5a5a5a5a5));
 }
 
+/* Centres closer than 1e-9 of the radii are rounding, at any scale. */
+START_TEST(same_place_at_any_scale)
+{
+    static const nlc_material material = {1e9, 0.3};
+    const int32_t i = 0, j = 1;
+    const double scale[] = {1e-300, 1e-200, 1, 1e200, 1e300};
+    for (int k = 0; k < 5; k++) {
+        const double radius[2] = {scale[k], scale[k]}, zero[2] = {0};
+        double x[2] = {0, 1e-9 * scale[k]}, depth = 77, n[3] = {77};
+        const nlc_particles two = {.struct_size = sizeof two, .count = 2, .radius = radius, .materials = &material, .material_count = 1};
+        const nlc_positions at = {.struct_size = sizeof at, .x = x, .y = zero, .z = zero};
+        nlc_info info = {.struct_size = sizeof info};
+        nlc_assert_quiet(ck_assert_int_eq(nlc_contacts_from_pairs(&depth, n, &two, &at, &i, &j, 1, &info), NLC_ERROR_SAME_PLACE));
+        ck_assert(info.culprit == 0 && depth == 77 && n[0] == 77);
+        x[1] = 1e-8 * scale[k];
+        nlc_assert_quiet(ck_assert_int_eq(nlc_contacts_from_pairs(&depth, n, &two, &at, &i, &j, 1, &info), NLC_OK));
+        nlc_assert_rel(depth, 2 * scale[k], 1e-7);
+        ck_assert(n[0] == 1);
+    }
+}
+END_TEST
+
 START_TEST(predicted_from_two_steps)
 {
     double nonlocal[3] = {1, 2, -4}, previous[3] = {0.5, 2, -3};
@@ -679,6 +701,7 @@ int main(void)
     tcase_add_loop_test(t, reach_bounds_open_contacts, 0, 6);
     tcase_add_test(t, reach_of_the_sphere);
     tcase_add_loop_test(t, reach_is_enough, 0, 6);
+    tcase_add_test(t, same_place_at_any_scale);
     tcase_add_test(t, predicted_from_two_steps);
     tcase_add_test(t, carried_by_key);
     tcase_add_loop_test(t, updated_network_is_as_new, 0, 6);
