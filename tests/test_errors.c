@@ -800,7 +800,8 @@ START_TEST(updates)
 }
 END_TEST
 
-static int64_t calls, fails, fails_elsewhere; /* of callbacks: the number so far, of the one that fails, of that where another rank has */
+/* of callbacks: the number so far, of the one that fails, of that where another rank has, of that where it has heard of it, and leaves */
+static int64_t calls, fails, fails_elsewhere, leaves;
 
 static int exchange(void *context, double *side)
 {
@@ -812,6 +813,7 @@ static int reduce(void *context, double *values, int32_t count, int32_t operatio
 {
     (void)context, (void)count, (void)operation;
     if (++calls == fails_elsewhere) values[0] = 1;
+    if (calls == leaves) values[0] = 0x1p40;
     return calls == fails ? 42 : 0;
 }
 
@@ -838,12 +840,18 @@ START_TEST(ranks)
     for (fails = 1; fails < 4; fails++) {
         calls = 0;
         demand(solve(), NLC_ERROR_CALLBACK, 42);
-        ck_assert_int_eq(calls, fails == 3 ? 5 : fails == 2 ? 3 : 2);
+        ck_assert_int_eq(calls, fails == 3 ? 6 : fails == 2 ? 5 : 3); /* two reductions more, an exchange if it is due */
     }
+    for (fails = 2, leaves = 3; fails < 4; fails++, leaves = 5) { /* nobody needs to be told */
+        calls = 0;
+        demand(solve(), NLC_ERROR_CALLBACK, 42);
+        ck_assert_int_eq(calls, leaves);
+    }
+    fails = leaves = 0;
     for (fails_elsewhere = 2; fails_elsewhere < 4; fails_elsewhere++) {
         calls = 0;
         demand(solve(), NLC_ERROR_REMOTE, -1);
-        ck_assert_int_eq(calls, fails_elsewhere);
+        ck_assert_int_eq(calls, fails_elsewhere == 2 ? 3 : 5);
     }
 }
 END_TEST
