@@ -291,6 +291,10 @@ START_TEST(options)
     demand(nlc_solve((nlc_network *)not_a_network, f.force, f.nonlocal, f.s.overlap, f.s.normal, &f.info), NLC_ERROR_NETWORK, -1);
     demand(nlc_sweep((nlc_network *)not_a_network, f.displacement, f.force, 0, f.s.normal, &f.info), NLC_ERROR_NETWORK, -1);
     demand(nlc_assemble((nlc_network *)not_a_network, f.F, 0, 0, f.force, f.s.normal, &f.info), NLC_ERROR_NETWORK, -1);
+    demand(nlc_energy((nlc_network *)not_a_network, f.F, f.force, f.s.overlap, f.s.normal, &f.info), NLC_ERROR_NETWORK, -1);
+    demand(nlc_tangent((nlc_network *)not_a_network, f.F, f.s.overlap, f.force, f.s.normal, &f.info), NLC_ERROR_NETWORK, -1);
+    demand(nlc_tangent_inverse((nlc_network *)not_a_network, f.F, f.force, f.force, f.s.normal, &f.info), NLC_ERROR_NETWORK, -1);
+    demand(nlc_tangent_bound((nlc_network *)not_a_network, f.F, f.force, f.s.normal, &f.info), NLC_ERROR_NETWORK, -1);
 }
 END_TEST
 

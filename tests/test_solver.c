@@ -450,6 +450,52 @@ START_TEST(slow_compression)
 }
 END_TEST
 
+/* [GC] Algorithm 1 runs away from a start far off, and goes on from zeros. */
+START_TEST(start_far_off)
+{
+    rng g = {8};
+    scene s, t;
+    for (int k = 0; k < 2; k++) {
+        scene *one = k ? &t : &s;
+        g.state = 8;
+        scene_init(one);
+        scene_lattice(one, FACE_CENTRED, 3, 1, 0.3, 0.01, 1e-3, &g);
+        one->options.method = NLC_METHOD_FIXED_POINT;
+        ck_assert_int_eq(scene_build(one), NLC_OK);
+    }
+    for (int64_t c = 0; c < t.contacts; c++) t.nonlocal[c] = 1e6 * s.overlap[c];
+    nlc_info cold, again;
+    ck_assert_int_eq(scene_solve(&s, &cold), NLC_OK);
+    nlc_assert_quiet(ck_assert_int_eq(scene_solve(&t, 0), NLC_OK));
+    for (int64_t c = 0; c < s.contacts; c++) nlc_assert_abs(t.force[c], s.force[c], 2e-8 * s.force[0]);
+    ck_assert_int_eq(scene_solve(&s, &again), NLC_OK); /* from the solution */
+    if (verbose()) printf("sweeps from zeros %d, from the solution %d\n", (int)cold.sweeps, (int)again.sweeps);
+    ck_assert_int_le(2 * again.sweeps, cold.sweeps); /* 3 and 8 */
+    scene_free(&s), scene_free(&t);
+}
+END_TEST
+
+/* What Anderson's method says where it may not go on, and where rounding does not let it. */
+START_TEST(limits_of_mixed_models)
+{
+    for (int limit = 0; limit < 2; limit++) {
+        rng g = {9};
+        scene s;
+        nlc_info info;
+        scene_init(&s);
+        scene_lattice(&s, FACE_CENTRED, 3, 1, 0.3, 0.01, 1e-3, &g);
+        s.options.model = NLC_MODEL_LOVE;
+        s.options.max_sweeps = limit ? 3 : 0;
+        s.options.tolerance = limit ? 1e-10 : 1e-300;
+        nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, &info), limit ? NLC_WARNING_NOT_CONVERGED : NLC_WARNING_ROUNDING));
+        ck_assert_int_le(info.sweeps, limit ? 3 : 100);
+        ck_assert(info.residual > s.options.tolerance && info.residual < (limit ? 1 : 1e-12));
+        for (int64_t c = 0; c < s.contacts; c++) ck_assert(isfinite(s.force[c]) && s.force[c] >= 0);
+        scene_free(&s);
+    }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("solver");
@@ -459,6 +505,8 @@ int main(void)
     tcase_add_test(t, close_pairs);
     tcase_add_test(t, nearly_one_place);
     tcase_add_test(t, slow_compression);
+    tcase_add_test(t, start_far_off);
+    tcase_add_test(t, limits_of_mixed_models);
     tcase_add_test(t, after_fixed_point);
     tcase_add_test(t, idle_candidates_in_one_place);
     tcase_add_loop_test(t, soft_and_open, 0, 2);

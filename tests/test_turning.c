@@ -158,6 +158,8 @@ START_TEST(what_is_refused)
     REFUSED(nlc_assemble_turning(n, F[0], 0, s.force, s.overlap, s.normal, &info), NLC_ERROR_OVERLAP, 0);
     s.overlap[0] = NAN;
     REFUSED(nlc_assemble_turning(n, F[0], 0, s.force, s.overlap, s.normal, &info), NLC_ERROR_OVERLAP, 0);
+    s.overlap[0] = -1.7e308;
+    REFUSED(nlc_assemble_turning(n, F[0], 0, s.force, s.overlap, s.normal, &info), NLC_ERROR_RANGE, -1);
     s.overlap[0] = overlap;
     s.force[0] = INFINITY;
     REFUSED(nlc_assemble_turning(n, F[0], 0, s.force, s.overlap, s.normal, &info), NLC_ERROR_FORCE, 0);
