@@ -894,6 +894,49 @@ START_TEST(empty_networks)
 }
 END_TEST
 
+/* An info without its size: nothing can be said there, and nothing is done. */
+START_TEST(info_without_a_size)
+{
+    static const size_t bad[] = {0, sizeof(size_t) - 1, 4097, SIZE_MAX};
+    uint64_t key[5] = {0}, work[40];
+    set_up_host();
+    nlc_model_record record = {.struct_size = sizeof record};
+    nlc_network *n = f.s.network;
+    for (int b = 0; b < 4; b++) {
+        nlc_info info, info_before;
+        memset(&info, 0xa5, sizeof info);
+        info.struct_size = bad[b];
+        info_before = info;
+        keep();
+        h_before = h;
+        const nlc_status status[] = {
+            nlc_model_info(0, &record, &info),
+            nlc_network_init(&n, f.s.memory, f.size, &f.view, f.s.i, f.s.j, 5, &f.options, &info),
+            nlc_network_update(n, &f.view, NULL, &info),
+            nlc_set_options(n, &f.options, &info),
+            nlc_solve(n, f.force, f.nonlocal, f.s.overlap, f.s.normal, &info),
+            nlc_sweep(n, f.displacement, f.force, f.s.overlap, f.s.normal, &info),
+            nlc_energy(n, f.F, f.force, f.s.overlap, f.s.normal, &info),
+            nlc_tangent(n, f.F, f.s.overlap, f.force, f.s.normal, &info),
+            nlc_tangent_inverse(n, f.F, f.force, f.force, f.s.normal, &info),
+            nlc_tangent_bound(n, f.F, f.force, f.s.normal, &info),
+            nlc_assemble(n, f.F, 0, f.F_wall, f.force, f.s.normal, &info),
+            nlc_assemble_turning(n, f.F, 0, f.force, f.s.overlap, f.s.normal, &info),
+            nlc_assemble_sliding(n, f.F, 0, f.torque, 0, f.F_wall, f.force, f.s.normal, f.sliding, f.displacement, f.s.overlap, 0.5, &info),
+            nlc_predict(f.nonlocal, f.force, 5, 1, &info),
+            nlc_reach(n, &h.reach, h.b, f.force, &info),
+            nlc_carry(f.nonlocal, key, 5, f.force, key, 5, work, sizeof work, &info),
+            nlc_contacts_from_pairs(h.overlap, h.out, &h.particles, &h.positions, h.i, h.j, 3, &info),
+            nlc_contacts_from_lists(&h.count, h.found_i, h.found_j, 9, &h.particles, &h.positions, &h.lists, 0.5, &info),
+        };
+        for (size_t k = 0; k < sizeof status / sizeof *status; k++)
+            ck_assert_msg(status[k] == NLC_ERROR_STRUCT_SIZE, "function %zu, size %zu: %s", k, bad[b], nlc_strerror(status[k]));
+        ck_assert(memcmp(&info, &info_before, sizeof info) == 0);
+        ck_assert(memcmp(&h, &h_before, sizeof h) == 0 && memcmp(memory_before, f.s.memory, f.size) == 0 && f.s.network == n);
+    }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("errors");
@@ -919,6 +962,7 @@ int main(void)
     tcase_add_test(t, empty_networks);
     tcase_add_test(t, ranks);
     tcase_add_test(t, every_error_was_met);
+    tcase_add_test(t, info_without_a_size);
     suite_add_tcase(suite, t);
     setenv("CK_FORK", "no", 1); /* every_error_was_met looks at what the others did */
     return run_suite(suite);
