@@ -475,6 +475,30 @@ START_TEST(start_far_off)
 }
 END_TEST
 
+/* The first contact is so loose that Hertz' law would do, others are not. */
+START_TEST(loose_at_first_sight)
+{
+    scene s;
+    nlc_info info;
+    long double solution[7];
+    scene_init(&s);
+    const int32_t m = scene_material(&s, 1e9, 0.3);
+    for (int k = 0; k < 9; k++) scene_particle(&s, 1, m);
+    scene_contact(&s, 7, 8, 1e-12, 0, 0, 1);
+    for (int k = 0; k < 6; k++) {
+        double n[3] = {0, 0, 0};
+        n[k / 2] = k % 2 ? -1 : 1;
+        scene_contact(&s, 0, k + 1, 1e-4 + 1e-5 * k, n[0], n[1], n[2]);
+    }
+    s.options.tolerance = 1e-5;
+    nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, &info), NLC_OK));
+    scene_oracle(&s, 1, solution);
+    ck_assert(scene_error(&s, s.force, solution) <= 1e-5);
+    ck_assert(info.sweeps > 0 && info.residual <= 1e-5);
+    scene_free(&s);
+}
+END_TEST
+
 /* What Anderson's method says where it may not go on, and where rounding does not let it. */
 START_TEST(limits_of_mixed_models)
 {
@@ -506,6 +530,7 @@ int main(void)
     tcase_add_test(t, nearly_one_place);
     tcase_add_test(t, slow_compression);
     tcase_add_test(t, start_far_off);
+    tcase_add_test(t, loose_at_first_sight);
     tcase_add_test(t, limits_of_mixed_models);
     tcase_add_test(t, after_fixed_point);
     tcase_add_test(t, idle_candidates_in_one_place);
