@@ -508,6 +508,15 @@ module nlcontact
             type(nlc_info), intent(inout), optional :: info
         end function
 
+        function nlc_order(network, particle, contact, info) bind(c)
+            import
+            integer(c_int32_t) :: nlc_order
+            type(c_ptr), value :: network
+            integer(c_int32_t), intent(inout) :: particle(*)
+            integer(c_int64_t), intent(inout) :: contact(*)
+            type(nlc_info), intent(inout), optional :: info
+        end function
+
         function nlc_network_update(network, particles, stiffness, info) bind(c)
             import
             integer(c_int32_t) :: nlc_network_update

@@ -1113,6 +1113,29 @@ NLC_API nlc_status nlc_carry(double *NLC_RESTRICT nonlocal, const uint64_t *NLC_
                              void *memory, size_t memory_size, nlc_info *info);
 
 /*
+ * nlc_order - in which order to number particles and contacts, so that what is used together lies together in memory.
+ *
+ * Where large packings are numbered at random the processor waits for memory: a sweep of 500,000 contacts then takes twice as long as
+ * in this order, of ten million several times.  A host gains from it by renumbering when it makes a neighbour list: its own
+ * particles, or just what it hands to the library, with place[particle[m]] = m:
+ *     radius, material of m   those of its particle[m]; walls keep their numbers
+ *     i, j of contact m       place of the two particles of its contact[m]; overlap, normal, nonlocal ... likewise
+ * Forces on particles then come in this order as well.
+ *
+ * network    from nlc_network_init, as the host has numbered it.  Its work space is used, nothing of it changes.
+ * particle   [particles] out: which one is to be the m-th, each once: those owned here first, then ghosts
+ * contact    [contacts] out: which one is to be the m-th, each once
+ * info       or NULL
+ *
+ * Particles come in blobs of 512, each grown breadth first from a neighbour of those before; ghosts in the order in which they are
+ * met there, those without contacts by number.  Contacts follow the lower one of their two particles, then the other one, with walls
+ * last; contacts of the same two bodies stay in their order.  The same network gives the same order, whichever body of a contact is
+ * called i.  The time is about twice that of nlc_network_init.
+ * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK.
+ */
+NLC_API nlc_status nlc_order(nlc_network *network, int32_t *NLC_RESTRICT particle, int64_t *NLC_RESTRICT contact, nlc_info *info);
+
+/*
  * nlc_network_update - other radii and materials for the same contacts: grains that swell, soften or wear.
  *
  * The network is then, bit for bit in what it computes, as if it had been built anew with its options.

@@ -326,6 +326,8 @@ NLC_API nlc_status nlc_carry(double *NLC_RESTRICT nonlocal, const uint64_t *NLC_
                              const double *NLC_RESTRICT old_nonlocal, const uint64_t *NLC_RESTRICT old_key, int64_t old_count,
                              void *memory, size_t memory_size, nlc_info *info);
 
+NLC_API nlc_status nlc_order(nlc_network *network, int32_t *NLC_RESTRICT particle, int64_t *NLC_RESTRICT contact, nlc_info *info);
+
 NLC_API nlc_status nlc_network_update(nlc_network *network, const nlc_particles *particles, const double *stiffness,
                                       nlc_info *info);
 
