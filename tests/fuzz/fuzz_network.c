@@ -639,6 +639,24 @@ static void reach(scene *s)
     demand(status < 0 || *x >= 0, "reach");
 }
 
+/* Every particle and every contact once; what comes later finds whether the network has been changed. */
+static void order(scene *s)
+{
+    const size_t n = s->bodies - s->walls;
+    int32_t *particle = ARRAY(s, RESULT, n, int32_t);
+    int64_t *contact = ARRAY(s, OTHER_RESULT, s->contacts, int64_t);
+    const nlc_status status = CALL(nlc_order(s->network, particle, contact, NULL), 0, 0);
+    demand(status == NLC_OK, "nlc_order");
+    for (size_t k = 0, found; k < n; k++) {
+        for (found = 0; found < n && particle[found] != (int32_t)k;) found++;
+        demand(found < n, "a particle");
+    }
+    for (size_t c = 0, found; c < s->contacts; c++) {
+        for (found = 0; found < s->contacts && contact[found] != (int64_t)c;) found++;
+        demand(found < s->contacts, "a contact");
+    }
+}
+
 static void set_options(scene *s)
 {
     /* the old ones must survive: they are what the network is built from again */
@@ -783,6 +801,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     for (size_t c = 0; c < s.contacts; c++)
         s.force[c] = s.nonlocal[c] = s.displacement[2 * c] = s.displacement[2 * c + 1] = 0, change[c] = 1e-6 * (double)(c % 5);
     solve(&s);
+    order(&s);
     for (int k = 0; k < STEPS && s.in.left > 0; k++) step(&s);
     return 0;
 }
