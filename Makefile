@@ -117,9 +117,9 @@ TRADEOFF_PACKINGS = $(sort $(S)/bench/data/b_die125_rd0.80.csv $(S)/bench/data/a
 	$(S)/bench/data/c_hydrogel514_strain13.csv $(PACKING))
 bench: $(addprefix $(B)/bench/,bench roofline steps functions tradeoff scale) ## time the library against Algorithm 1 as printed; PACKING=file for a packing of your own
 	@mkdir -p $(RESULTS)
-	@$(B)/bench/bench $(PACKING)
-	@$(B)/bench/bench --csv $(PACKING) >$(RESULTS)/bench.csv
-	@$(B)/bench/roofline $(PACKING)
+	@$(B)/bench/bench $(PACKING) ordered:$(PACKING)
+	@$(B)/bench/bench --csv $(PACKING) ordered:$(PACKING) >$(RESULTS)/bench.csv
+	@$(B)/bench/roofline $(PACKING) ordered:$(PACKING)
 	@$(B)/bench/steps $(PACKING)
 	@$(B)/bench/functions --csv $(RESULTS)/functions.csv $(PACKING)
 	@$(B)/bench/tradeoff --csv $(RESULTS)/tradeoff.csv $(TRADEOFF_PACKINGS)

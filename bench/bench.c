@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "algorithm1.h"
+#include "lattice.h"
 #include "neighbours.h"
 #include "nlcontact.h"
 #include "packing_io.h"
@@ -19,7 +20,8 @@ static const char usage[] =
     "usage: bench [--csv] FILE...\n"
     "\n"
     "Times the library's functions on packings, and one sweep of Algorithm 1 as printed beside nlc_sweep.\n"
-    "In every run each function is timed once, one after the other, so that they meet the same conditions.\n";
+    "In every run each function is timed once, one after the other, so that they meet the same conditions.\n"
+    "FILE may be lattice:N or, as numbered by nlc_order, ordered:FILE, see bench/README.\n";
 
 enum { COUPLED, HERTZ, FIXED_POINT, COARSE, NETWORKS };
 #define COARSE_TOLERANCE 1e-3
@@ -214,8 +216,7 @@ static int prepare(bench *b, const char *path)
 {
     char error[PACKING_ERROR_SIZE];
     memset(b, 0, sizeof *b);
-    if (packing_read(&b->p, path, true, error, sizeof error)) return fail("", error);
-    if (neighbours_find(&b->n, &b->p, NEIGHBOURS_REACH, error, sizeof error)) return fail(path, error);
+    if (packing_open(&b->p, &b->n, path, NEIGHBOURS_REACH, error, sizeof error)) return fail("", error);
     if (b->n.count == 0) return fail(path, "no contacts");
     b->particles = packing_particles(&b->p);
     if (allocate(b)) return -1;
@@ -256,9 +257,9 @@ static void release(bench *b)
 /* Seconds of one call, from repeat of them.  status: of the last. */
 static double time_calls(bench *b, int f, int64_t repeat, nlc_status *status)
 {
-    double start = timing_seconds();
+    double start = timing_processor_seconds();
     for (int64_t k = 0; k < repeat; k++) *status = functions[f].run(b);
-    return (timing_seconds() - start) / (double)repeat;
+    return (timing_processor_seconds() - start) / (double)repeat;
 }
 
 /* How many calls make a run.  Doubled until they last long enough; warms the caches, too. */

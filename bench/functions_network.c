@@ -37,6 +37,8 @@ struct function_scene {
     double *wall_resultant;      /* [walls][3] */
     double *of_particle;         /* [particles] */
     uint64_t *key, *old_key;     /* [contacts] */
+    int32_t *particle;           /* [particles] order of them */
+    int64_t *contact;            /* [contacts] likewise */
     void *carry_memory;
     nlc_positions positions;
     nlc_lists lists;
@@ -189,6 +191,12 @@ static nlc_status run_carry(void *context)
                      nlc_carry_size(s->n.count, s->n.count), NULL);
 }
 
+static nlc_status run_order(void *context)
+{
+    function_scene *s = context;
+    return nlc_order(first_network(s), s->particle, s->contact, NULL);
+}
+
 /* ---- preparation */
 
 /* Zeros, to be freed with the scene. */
@@ -210,6 +218,8 @@ static void allocate(function_scene *s)
     s->sliding = get(s, contacts, 3 * sizeof(double));
     s->key = get(s, contacts, sizeof(uint64_t));
     s->old_key = get(s, contacts, sizeof(uint64_t));
+    s->particle = get(s, particles, sizeof(int32_t));
+    s->contact = get(s, contacts, sizeof(int64_t));
     s->list_i = get(s, contacts, sizeof(int32_t));
     s->list_j = get(s, contacts, sizeof(int32_t));
     s->neighbours = get(s, contacts, sizeof(int32_t));
@@ -350,6 +360,7 @@ static void add_calls(function_scene *s, function_list *list)
         {"nlc_contacts_from_lists", run_lists, s},
         {"nlc_reach", run_reach, s},
         {"nlc_carry", run_carry, s},
+        {"nlc_order", run_order, s},
     };
     for (size_t k = 0; k < sizeof calls / sizeof *calls; k++)
         functions_add(list, calls[k].key, "contact", (double)s->n.count, calls[k].call, calls[k].context);

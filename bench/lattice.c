@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ordered.h"
+
 enum { SITES = 4, SMALLEST = 3, LARGEST = 500 };
 /*
  * Lengths in mean radii.  Neighbours are 2 (1 - CLOSER) apart in the perfect crystal; with the disorder, whose standard deviation
@@ -117,7 +119,7 @@ static void shuffle_contacts(neighbours *n)
     }
 }
 
-int packing_open(packing *p, neighbours *n, const char *name, double reach, char *error, size_t error_size)
+static int open_numbered(packing *p, neighbours *n, const char *name, double reach, char *error, size_t error_size)
 {
     const bool shuffled = strncmp(name, "lattice:", 8) == 0, sorted = strncmp(name, "sorted:", 7) == 0;
     memset(p, 0, sizeof *p);
@@ -144,4 +146,13 @@ int packing_open(packing *p, neighbours *n, const char *name, double reach, char
     }
     if (shuffled) shuffle_contacts(n);
     return 0;
+}
+
+int packing_open(packing *p, neighbours *n, const char *name, double reach, char *error, size_t error_size)
+{
+    const bool ordered = strncmp(name, "ordered:", 8) == 0;
+    if (open_numbered(p, n, ordered ? name + 8 : name, reach, error, error_size)) return -1;
+    const char *reason = ordered ? ordered_renumber(p, n) : NULL;
+    if (reason) snprintf(error, error_size, "%s: %s", name, reason);
+    return reason ? -1 : 0;
 }

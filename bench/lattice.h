@@ -20,7 +20,7 @@
  *
  * p, n    out; to be freed with packing_free and neighbours_free, also after an error
  * name    of a file, see packing_read; or lattice:N, 3 <= N <= 500, with spheres and contacts in random order; or sorted:N, the
- *         same in the order of the places
+ *         same in the order of the places; with ordered: in front of any of them, in the numbers that nlc_order gives
  * reach   as for neighbours_find; lattices are the same from 0.15 to 0.6
  * error   [error_size] out, on failure
  * Returns 0, or -1 on failure.

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../lib/network.h"
+#include "lattice.h"
 #include "neighbours.h"
 #include "packing_io.h"
 #include "peak.h"
@@ -51,12 +52,12 @@ static double triad(double *a, const double *b, const double *c, int64_t count)
     double best = INFINITY;
     const int64_t repeat = 1 + 100000 / count;
     for (int r = 0; r < 30; r++) {
-        const double start = timing_seconds();
+        const double start = timing_processor_seconds();
         for (int64_t q = 0; q < repeat; q++) {
             for (int64_t k = 0; k < count; k++) a[k] = b[k] + (double)(q + 3) * c[k];
             __asm__ volatile("" ::: "memory");
         }
-        best = smaller(best, (timing_seconds() - start) / (double)repeat);
+        best = smaller(best, (timing_processor_seconds() - start) / (double)repeat);
     }
     return 32 * (double)count / best;
 }
@@ -86,13 +87,13 @@ static int prepare(row *r, const neighbours *n, const nlc_particles *p)
 static void time_once(row *r, const double *force, const double *normal, int64_t repeat)
 {
     int64_t culprit;
-    double start = timing_seconds();
+    double start = timing_processor_seconds();
     for (int64_t q = 0; q < repeat; q++) nlc_displace(r->network, NLC_OF_FORCES, force, normal, &culprit);
-    r->seconds = smaller(r->seconds, (timing_seconds() - start) / (double)repeat);
+    r->seconds = smaller(r->seconds, (timing_processor_seconds() - start) / (double)repeat);
     if (!r->peak) return;
-    start = timing_seconds();
+    start = timing_processor_seconds();
     const int64_t pairs = r->peak(1 << 16);
-    r->peak_seconds = smaller(r->peak_seconds, (timing_seconds() - start) / (double)(pairs + 1));
+    r->peak_seconds = smaller(r->peak_seconds, (timing_processor_seconds() - start) / (double)(pairs + 1));
 }
 
 static void print(const row *rows, int count, const packing *p, const neighbours *n)
@@ -125,8 +126,7 @@ static int run_file(const char *path)
     char error[PACKING_ERROR_SIZE];
     packing p;
     neighbours n = {0};
-    int count = 0, status = packing_read(&p, path, true, error, sizeof error);
-    if (!status) status = neighbours_find(&n, &p, NEIGHBOURS_REACH, error, sizeof error);
+    int count = 0, status = packing_open(&p, &n, path, NEIGHBOURS_REACH, error, sizeof error);
     if (status) fail("", error);
     else if (n.count == 0) status = fail(path, "no contacts");
     const nlc_particles particles = packing_particles(&p);
@@ -139,8 +139,8 @@ static int run_file(const char *path)
     double *force = malloc((size_t)(n.count + 1) * sizeof *force);
     for (int64_t c = 0; c < n.count && force && !status; c++) force[c] = n.overlap[c] > 0 ? n.overlap[c] : 0;
     const int64_t repeat = 1 + (int64_t)(RUN_TIME / (3e-8 * (double)(n.count + 1)));
-    const double start = timing_seconds();
-    for (int r = 0; r < RUNS && force && !status && (r < 3 || timing_seconds() - start < TIME_IN_ALL); r++)
+    const double start = timing_processor_seconds();
+    for (int r = 0; r < RUNS && force && !status && (r < 3 || timing_processor_seconds() - start < TIME_IN_ALL); r++)
         for (int k = 0; k < count; k++) time_once(&rows[k], force, (const double *)n.normal, repeat);
     if (force && !status) print(rows, count, &p, &n);
     for (int k = 0; k < count; k++) free(rows[k].memory);

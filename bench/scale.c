@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* scale.c - time and memory per contact from a thousand to ten million contacts. */
 #include <errno.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,8 +14,9 @@
 static const char usage[] =
     "usage: scale [--csv FILE] [LARGEST]\n"
     "\n"
-    "ns per contact of what a time step needs, on packings made for it, in random order (lattice:N, see bench/README) and in\n"
-    "the order of space (sorted:N), from a thousand contacts to LARGEST (default: 1.1e6; 1.1e7 takes some minutes and 3 GB).\n";
+    "ns per contact of what a time step needs, on packings made for it, in random order (lattice:N, see bench/README), as\n"
+    "numbered by nlc_order (ordered:lattice:N) and in the order of space (sorted:N), from a thousand contacts to LARGEST\n"
+    "(default: 1.1e6; 1.1e7 takes some minutes and 3 GB).\n";
 
 /* Cells along an edge: half decades of contacts. */
 static const int cells[] = {4, 5, 7, 11, 16, 24, 35, 51, 75};
@@ -23,12 +25,15 @@ enum { SIZES = sizeof cells / sizeof cells[0], SETTLE = 5, MOST_RUNS = 21, EXIT_
 #define WORK 1e6      /* contacts times runs */
 #define TOLERANCE 1e-6
 
-enum { INIT, SWEEP, ALGORITHM1, ASSEMBLE, ZEROS, STEP, CALLS };
+enum { INIT, ORDER, SWEEP, ALGORITHM1, ASSEMBLE, ZEROS, STEP, CALLS };
+static const char *const orders[] = {"lattice", "ordered:lattice", "sorted"};
 
 typedef struct scene {
     compression path;
     algorithm1 a;
     double *force, *g, *previous, *w, *F;
+    int32_t *particle;
+    int64_t *contact;
     timed_call calls[CALLS];
 } scene;
 
@@ -50,6 +55,12 @@ static nlc_status run_init(void *context)
     compression *c = &((scene *)context)->path;
     const nlc_options o = {.struct_size = sizeof o, .tolerance = TOLERANCE};
     return nlc_network_init(&c->network, c->memory, c->memory_size, &c->particles, c->n.i, c->n.j, c->n.count, &o, NULL);
+}
+
+static nlc_status run_order(void *context)
+{
+    scene *s = context;
+    return nlc_order(s->path.network, s->particle, s->contact, NULL);
 }
 
 static nlc_status run_sweep(void *context)
@@ -105,8 +116,9 @@ static void measure(scene *s)
     static const struct {
         const char *key;
         nlc_status (*call)(void *);
-    } calls[CALLS] = {{"nlc_network_init", run_init},   {"nlc_sweep", run_sweep},           {"algorithm1_sweep", run_algorithm1},
-                      {"nlc_assemble", run_assemble}, {"nlc_solve from zeros", run_zeros}, {"step predicted", NULL}};
+    } calls[CALLS] = {{"nlc_network_init", run_init},       {"nlc_order", run_order},       {"nlc_sweep", run_sweep},
+                      {"algorithm1_sweep", run_algorithm1}, {"nlc_assemble", run_assemble}, {"nlc_solve from zeros", run_zeros},
+                      {"step predicted", NULL}};
     const double count = (double)s->path.n.count;
     const int runs = count * MOST_RUNS < WORK ? MOST_RUNS : count < WORK ? (int)(WORK / count) : 1;
     for (int k = 0; k < CALLS; k++) {
@@ -130,7 +142,10 @@ static int prepare(scene *s, const char *name)
     s->previous = calloc(contacts, sizeof(double));
     s->w = calloc(contacts, 2 * sizeof(double));
     s->F = calloc((size_t)s->path.p.count, 3 * sizeof(double));
-    if (algorithm1_init(&s->a, &s->path.p, &s->path.n) || !s->force || !s->g || !s->previous || !s->w || !s->F)
+    s->particle = calloc((size_t)s->path.p.count, sizeof *s->particle);
+    s->contact = calloc(contacts, sizeof *s->contact);
+    const bool there = s->force && s->g && s->previous && s->w && s->F && s->particle && s->contact;
+    if (algorithm1_init(&s->a, &s->path.p, &s->path.n) || !there)
         return fail(name, "out of memory");
     memcpy(s->path.overlap, s->path.n.overlap, contacts * sizeof(double));
     compression_forces(&s->path, s->force, s->g);
@@ -139,7 +154,7 @@ static int prepare(scene *s, const char *name)
 
 static void release(scene *s)
 {
-    double *array[] = {s->force, s->g, s->previous, s->w, s->F};
+    void *array[] = {s->force, s->g, s->previous, s->w, s->F, s->particle, s->contact};
     for (size_t k = 0; k < sizeof array / sizeof *array; k++) free(array[k]);
     algorithm1_free(&s->a);
     compression_free(&s->path);
@@ -150,7 +165,7 @@ static void print(scene *s, FILE *csv, double seconds)
 {
     const compression *c = &s->path;
     const double contacts = (double)c->n.count;
-    printf("%-12s%10lld", c->p.name, (long long)c->n.count);
+    printf("%-20s%10lld", c->p.name, (long long)c->n.count);
     for (int k = 0; k < CALLS; k++) {
         timed_call *t = &s->calls[k];
         if (t->status < 0) {
@@ -173,21 +188,21 @@ static void print(scene *s, FILE *csv, double seconds)
 static int run(double largest, FILE *csv)
 {
     static scene s;
-    printf("ns per contact; making a packing and all measurements in s\n\n%-12s%10s%10s%10s%10s%10s%10s%10s%10s%10s\n", "packing",
-           "contacts", "init", "sweep", "alg. 1", "assemble", "solve", "step", "bytes", "seconds");
+    printf("ns per contact; making a packing and all measurements in s\n\n%-20s%10s%10s%10s%10s%10s%10s%10s%10s%10s%10s\n", "packing",
+           "contacts", "init", "order", "sweep", "alg. 1", "assemble", "solve", "step", "bytes", "seconds");
     for (int k = 0; k < SIZES && 24.0 * cells[k] * cells[k] * cells[k] <= largest; k++)
-        for (int sorted = 0; sorted < 2; sorted++) {
+        for (size_t order = 0; order < sizeof orders / sizeof *orders; order++) {
             char name[32];
             const double start = timing_seconds();
-            snprintf(name, sizeof name, "%s:%d", sorted ? "sorted" : "lattice", cells[k]);
+            snprintf(name, sizeof name, "%s:%d", orders[order], cells[k]);
             const int status = prepare(&s, name);
             if (!status) measure(&s);
             if (!status) print(&s, csv, timing_seconds() - start);
             release(&s);
             if (status) return status;
         }
-    printf("\ninit: nlc_network_init; sweep: nlc_sweep; alg. 1: one sweep of Algorithm 1 as printed; solve: nlc_solve from zeros\n"
-           "to %g; step: nlc_predict, nlc_solve to %g, nlc_assemble; bytes: of a network, per contact\n\n",
+    printf("\ninit: nlc_network_init; order: nlc_order; sweep: nlc_sweep; alg. 1: one sweep of Algorithm 1 as printed; solve:\n"
+           "nlc_solve from zeros to %g; step: nlc_predict, nlc_solve to %g, nlc_assemble; bytes: of a network, per contact\n\n",
            TOLERANCE, TOLERANCE);
     return EXIT_SUCCESS;
 }

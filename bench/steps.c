@@ -112,11 +112,11 @@ static nlc_status run(scene *s, const method *m)
         }
         if (status >= 0 && m->tolerance > 0) status = use(s, m->tolerance, m->sweeps);
         if (m->sweeps == 0 && m->tolerance <= 0) memset(s->g, 0, (size_t)s->path.n.count * sizeof *s->g);
-        const double begin = timing_seconds();
+        const double begin = timing_processor_seconds();
         int64_t here = 0;
         if (status >= 0) status = make_step(s, m, step, &here);
         if (status < 0) break;
-        const double took = timing_seconds() - begin;
+        const double took = timing_processor_seconds() - begin;
         if (step < SETTLE) continue;
         const double error = error_of(s, &status);
         sweeps += here;
