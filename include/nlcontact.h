@@ -1127,10 +1127,11 @@ NLC_API nlc_status nlc_carry(double *NLC_RESTRICT nonlocal, const uint64_t *NLC_
  * contact    [contacts] out: which one is to be the m-th, each once
  * info       or NULL
  *
- * Particles come in blobs of 512, each grown breadth first from a neighbour of those before; ghosts in the order in which they are
- * met there, those without contacts by number.  Contacts follow the lower one of their two particles, then the other one, with walls
- * last; contacts of the same two bodies stay in their order.  The same network gives the same order, whichever body of a contact is
- * called i.  The time is about twice that of nlc_network_init.
+ * Particles come in blobs of 512, each grown breadth first from a neighbour of those before, and in each of them by falling number
+ * of contacts (more than 64 count as none); ghosts in the order in which they are met there, those without contacts by number.
+ * Contacts follow the lower one of their two particles, then the other one, with walls last; contacts of the same two bodies stay in
+ * their order.  The same network gives the same order, whichever body of a contact is called i.  The time is about twice that of
+ * nlc_network_init.
  * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK.
  */
 NLC_API nlc_status nlc_order(nlc_network *network, int32_t *NLC_RESTRICT particle, int64_t *NLC_RESTRICT contact, nlc_info *info);

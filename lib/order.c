@@ -3,9 +3,10 @@
  * order.c - in which order to number particles and contacts, so that what is used together lies together.
  *
  * Particles are taken in blobs, as many in each as a sweep looks at together: a blob grows breadth first from a neighbour of those
- * before.  Without blobs breadth first is shells, which are too wide for the caches; within a blob the order does not matter.
+ * before.  Without blobs breadth first is shells, which are too wide for the caches.
  */
 #include "network.h"
+#include "parallel.h"
 #include "structs.h"
 
 typedef struct order {
@@ -58,6 +59,31 @@ static void grow(order *o)
     }
 }
 
+/* More contacts than a block holds are left to the end by a sweep. */
+static int contacts_of(const order *o, int64_t k)
+{
+    const int64_t count = o->n->start[k + 1] - o->n->start[k];
+    return count > NLC_BLOCK ? 0 : (int)count;
+}
+
+/* By falling number of contacts: that is how a sweep goes through them, see lanes.h. */
+static void sort_blob(order *o, int64_t first, int64_t end)
+{
+    int at[NLC_BLOCK + 1] = {0}, sum = 0;
+    int32_t sorted[NLC_WINDOW];
+    for (int64_t m = first; m < end; m++) at[contacts_of(o, o->particle[m])]++;
+    for (int z = NLC_BLOCK; z >= 0; z--) {
+        const int count = at[z];
+        at[z] = sum;
+        sum += count;
+    }
+    for (int64_t m = first; m < end; m++) sorted[at[contacts_of(o, o->particle[m])]++] = o->particle[m];
+    for (int64_t m = first; m < end; m++) {
+        o->particle[m] = sorted[m - first];
+        o->place[o->particle[m]] = (int32_t)m;
+    }
+}
+
 static void order_particles(order *o)
 {
     const nlc_network *n = o->n;
@@ -69,6 +95,7 @@ static void order_particles(order *o)
         }
     }
     while (o->count < n->owned) grow(o);
+    for (int64_t w = 0; w < nlc_windows(n); w++) sort_blob(o, w * NLC_WINDOW, nlc_end_of(w, NLC_WINDOW, n->owned));
     for (int64_t m = 0; m < n->owned && n->owned < n->particle_count; m++) {
         const int64_t k = o->particle[m];
         for (int64_t p = n->start[k]; p < n->start[k + 1]; p++)

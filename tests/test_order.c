@@ -7,7 +7,7 @@
 
 #include "scene.h"
 
-enum { BLOB = 512 }; /* as the manual says */
+enum { BLOB = 512, BLOCK = 64 }; /* as the manual says; more contacts than BLOCK count as none */
 
 typedef struct order {
     int32_t *particle, *place;
@@ -21,8 +21,20 @@ static void order_free(order *o)
     free(o->contact);
 }
 
+/* Each once, those owned first; in a blob by falling number of contacts, of which a self contact is two. */
 static void look_at_bodies(const scene *s, const order *o, int64_t owned)
 {
+    int *degree = calloc((size_t)(s->particles + s->walls) + 1, sizeof *degree);
+    for (int64_t c = 0; c < s->contacts; c++) {
+        degree[s->i[c]]++;
+        degree[s->j[c]]++;
+    }
+    for (int64_t m = 1; m < owned; m++) {
+        const int before = degree[o->particle[m - 1]], now = degree[o->particle[m]];
+        if (m % BLOB != 0 && before <= BLOCK) ck_assert_int_ge(before, now > BLOCK ? 0 : now);
+        if (m % BLOB != 0 && before > BLOCK) ck_assert(now > BLOCK || now == 0);
+    }
+    free(degree);
     for (int64_t k = 0; k < s->particles; k++) o->place[k] = -1;
     for (int64_t m = 0; m < s->particles; m++) {
         const int32_t k = o->particle[m];
