@@ -928,6 +928,7 @@ START_TEST(info_without_a_size)
             nlc_carry(f.nonlocal, key, 5, f.force, key, 5, work, sizeof work, &info),
             nlc_contacts_from_pairs(h.overlap, h.out, &h.particles, &h.positions, h.i, h.j, 3, &info),
             nlc_contacts_from_lists(&h.count, h.found_i, h.found_j, 9, &h.particles, &h.positions, &h.lists, 0.5, &info),
+            nlc_order(n, h.found_i, (int64_t *)key, &info),
         };
         for (size_t k = 0; k < sizeof status / sizeof *status; k++)
             ck_assert_msg(status[k] == NLC_ERROR_STRUCT_SIZE, "function %zu, size %zu: %s", k, bad[b], nlc_strerror(status[k]));
