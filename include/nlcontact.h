@@ -739,7 +739,10 @@ NLC_API size_t nlc_cache_size(const nlc_network *network);
  * cost one sweep and no more: a step of a slowly moving scene is about twice as dear as its sweep.
  *
  * Models.  In NLC_MODEL_SPHERE the coefficients depend on the forces, but there is an energy, and all of the above holds with the
- * coupling of its tangent in the place of C, what a contact's force does to the contact itself included.  NLC_MODEL_LOVE and
+ * coupling of its tangent in the place of C, what a contact's force does to the contact itself included, as long as no
+ * overlap plus displacement exceeds the radius of the smaller particle.  Circles are taken for no larger than they are then: beyond, forces
+ * have no energy, and a solve, weakened or not, may end with NLC_WARNING_NOT_CONVERGED and _CLOSE (found at overlaps of 20 % of
+ * R_i + R_j and more).  NLC_MODEL_LOVE and
  * NLC_MODEL_HALF_SPACE at deformed contact points have neither an energy nor a symmetric tangent: they are solved by
  * Anderson's method, residual is an estimate from the steps taken (3 times the last change of the forces, times the largest
  * amplification met), lambda_lower and lambda_upper stay infinite unless it was weakened, and whether the state counts as

@@ -43,7 +43,7 @@ static bool gather_active(nlc_block *b, int64_t *entry, const nlc_network *n, co
         if (b->count == NLC_BLOCK) return false;
         nlc_set_direction(b, b->count, normal, e);
         b->force[b->count] = weight_of(n, e);
-        b->shape[b->count] = circles ? nlc_circle2(n, e, particle) / 6 : 0; /* as the tangent has it */
+        b->shape[b->count] = circles ? nlc_circle2(n, e, particle) * nlc_circle_change(n, e >> 1) : 0; /* as the tangent has it */
         b->tilt[b->count] = circles ? nlc_tilt(n, e, particle) : 0;
         b->tilted |= circles && fabs(b->tilt[b->count]) > NLC_NO_TILT;
         entry[b->count++] = e;

@@ -4,18 +4,40 @@
 
 #define LARGEST_TILT 1e6
 #define STEEPEST 1e100 /* in units of the iteration, for absurd numbers: its square is in range */
+#define FARTHEST 1e300 /* overlap, likewise */
+
+/* No circle is taken for larger than that of this overlap. */
+static double largest_approach(const nlc_network *n, int64_t c)
+{
+    const int64_t i = n->i[c], j = n->j[c];
+    const double a = i < n->particle_count ? nlc_length_of(n, i) : INFINITY;
+    const double b = j < n->particle_count ? nlc_length_of(n, j) : INFINITY;
+    return a < b ? a : b;
+}
+
+static double approach_of(const nlc_network *n, int64_t c)
+{
+    return n->approach[c] < 0 ? largest_approach(n, c) : n->approach[c];
+}
+
+/*
+ * 1 for a circle that grows with its force.  Beyond the largest one displacements are proportional to forces: 0, but not at once, since
+ * how far a coupling is weakened depends on slopes, and must not jump.
+ */
+static double growth_of(const nlc_network *n, int64_t c)
+{
+    if (n->approach[c] >= 0) return 1;
+    const double part = largest_approach(n, c) / -n->approach[c];
+    return part * part * (part * part);
+}
 
 void nlc_set_approach(nlc_network *n, const double *force)
 {
     for (int64_t c = 0; c < n->contact_count; c++) {
-        const int64_t i = n->i[c], j = n->j[c];
         n->approach[c] = 0;
         if (!(force[c] > 0)) continue;
         const double x = nlc_hertz_overlap(nlc_join(n->stiffness[c], n->stiffness_unit), force[c]);
-        const double a = i < n->particle_count ? nlc_length_of(n, i) : INFINITY;
-        const double b = j < n->particle_count ? nlc_length_of(n, j) : INFINITY;
-        const double cap = a < b ? a : b;
-        n->approach[c] = nlc_is_finite(x) && x < cap ? x : cap;
+        n->approach[c] = x < largest_approach(n, c) ? x : x < FARTHEST ? -x : -FARTHEST;
     }
 }
 
@@ -30,12 +52,18 @@ double nlc_tilt(const nlc_network *n, int64_t e, int64_t particle)
 /* (a/R)^2 of a side */
 static double circle2(const nlc_network *n, int64_t e, int64_t particle, double length)
 {
-    return nlc_effective(n, e, n->radius[particle]) * (n->approach[e >> 1] / length);
+    return nlc_effective(n, e, n->radius[particle]) * (approach_of(n, e >> 1) / length);
 }
 
 double nlc_circle2(const nlc_network *n, int64_t e, int64_t particle)
 {
     return circle2(n, e, particle, nlc_length_of(n, particle));
+}
+
+double nlc_circle_change(const nlc_network *n, int64_t c)
+{
+    const double growth = growth_of(n, c);
+    return growth < 1 ? growth / 6 + (1 - growth) * (2 / 15.) : 1 / 6.;
 }
 
 void nlc_set_shape(nlc_block *b, int d, const nlc_network *n, nlc_response response, int64_t e, int64_t particle,
@@ -51,7 +79,7 @@ void nlc_set_shape(nlc_block *b, int d, const nlc_network *n, nlc_response respo
         b->shape[d] = sqrt(t2);
         return;
     }
-    b->shape[d] = b->force[d] * t2 * (response == NLC_OF_CHANGES ? 1 / 6. : 0.1);
+    b->shape[d] = b->force[d] * t2 * (response == NLC_OF_CHANGES ? nlc_circle_change(n, e >> 1) : 0.1);
     b->tilt[d] = nlc_tilt(n, e, particle);
     b->tilted |= fabs(b->tilt[d]) > NLC_NO_TILT;
 }
@@ -77,14 +105,15 @@ static double own_slope(const nlc_network *n, int64_t e, int64_t particle, doubl
                         double wide)
 {
     const int64_t c = e >> 1;
-    const double k = nlc_join(n->stiffness[c], n->stiffness_unit) + 1e-150, least = n->floor[c] / k, root = sqrt(n->approach[c]);
+    const double k = nlc_join(n->stiffness[c], n->stiffness_unit) + 1e-150, least = n->floor[c] / k, root = sqrt(approach_of(n, c));
     const double x = root > least ? root : least, alone = k * x * x * x + 1e-200;
     const double p = alone > force ? alone : force; /* a circle of the largest size has less than its force */
     if (root < least) {
         const double t2 = nlc_effective(n, e, n->radius[particle]) * (x * x / nlc_length_of(n, particle));
         self = n->settings.model->self(nlc_kernel_of(n, particle), t2 < 1 ? t2 : 1, tilt);
     }
-    const double slope = nlc_scale_of(n, particle) * self.slope + (moment * (2. / 3) + wide * (4. / 3)) / p;
+    const double growth = growth_of(n, c), own = growth * self.slope + (1 - growth) * self.displacement;
+    const double slope = nlc_scale_of(n, particle) * own + growth * (moment * (2. / 3) + wide * (4. / 3)) / p;
     return slope > STEEPEST ? -STEEPEST : slope < -STEEPEST ? STEEPEST : -slope;
 }
 
@@ -94,7 +123,7 @@ void nlc_add_self(nlc_network *n, nlc_response response, const double *force, in
     const double U = nlc_scale_of(n, particle);
     const double t2 = circle2(n, e, particle, length), moment = t2 * (second + tilt * third);
     if (response == NLC_OF_CHANGES) {
-        n->side[e] += -moment / 6 + n->own[e] * force[e >> 1];
+        n->side[e] += -moment * nlc_circle_change(n, e >> 1) + n->own[e] * force[e >> 1];
         return;
     }
     const nlc_self self = n->settings.model->self(nlc_kernel_of(n, particle), t2, tilt);

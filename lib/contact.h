@@ -10,7 +10,10 @@
 
 #include "network.h"
 
-/* Sets network->approach, the overlaps x, in units of 1 / network->per_length; forces and stiffnesses have theirs. */
+/*
+ * Sets network->approach, the overlaps x, in units of 1 / network->per_length; forces and stiffnesses have theirs.  -x where the circle
+ * would be larger than it is taken for.
+ */
 void nlc_set_approach(nlc_network *network, const double *force);
 
 /* The other body of a side; a wall's radius is infinite. */
@@ -30,6 +33,12 @@ static inline double nlc_effective(const nlc_network *n, int64_t e, double R)
 
 /* (a/R)^2 of a side, R being the particle's radius. */
 double nlc_circle2(const nlc_network *network, int64_t side, int64_t particle);
+
+/*
+ * What (a/R)^2 of a contact is to be multiplied by in a coefficient of the tangent: 1/6; 2/15, the mean of what targets and sources have, of
+ * the largest circles, which grow no more.
+ */
+double nlc_circle_change(const nlc_network *network, int64_t contact);
 
 /* A particle's radius in the unit of overlaps, not 0 and not infinite. */
 static inline double nlc_length_of(const nlc_network *n, int64_t particle)

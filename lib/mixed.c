@@ -21,6 +21,7 @@
 #define RESTART_STEP 0.3
 #define GROWTH 4.0 /* of the residual: then back to the best, with shorter steps */
 #define STEPS 150
+#define PATIENCE 40 /* steps without the residual falling tenfold after which nothing is expected */
 #define HOPELESS 1e3 /* residual relative to the overlaps */
 #define ROUNDING 1e-15
 
@@ -112,7 +113,8 @@ static bool is_stable(nlc_iteration *q, nlc_outcome *out)
 static bool iterate(nlc_iteration *q, vectors *v, nlc_outcome *out)
 {
     nlc_network *n = q->n;
-    double applied = 0; /* sum of the squares of the overlaps */
+    double applied = 0, mark = INFINITY; /* sum of the squares of the overlaps; a residual to be improved on */
+    int waited = 0;
     nlc_anderson h;
     nlc_anderson_start(&h, n, v->sides ? 2 : 1, n->lanczos[0], n->lanczos[2], NLC_FARTHEST);
     nlc_anderson_reset(&h, FIRST_STEP);
@@ -141,7 +143,9 @@ static bool iterate(nlc_iteration *q, vectors *v, nlc_outcome *out)
             out->status = NLC_WARNING_NOT_CONVERGED;
             return true;
         }
-        if (norm > HOPELESS * HOPELESS * applied) return false;
+        waited = norm < 0.01 * mark ? 0 : waited + 1;
+        mark = waited == 0 ? norm : mark;
+        if (norm > HOPELESS * HOPELESS * applied || waited > PATIENCE) return false;
         if (norm > GROWTH * GROWTH * h.smallest) {
             memcpy(v->x, v->best, (size_t)v->length * sizeof *v->x);
             nlc_anderson_reset(&h, RESTART_STEP);

@@ -21,8 +21,19 @@
 #define STEPS 240
 #define PATIENCE 25 /* steps without the residual falling tenfold after which it begins again from Hertz */
 
-/* y = the right side of the equation at x, coupling weakened; returns the largest change of a force, relative. */
-static double weakened_map(nlc_iteration *q, const double *x, double *y, nlc_outcome *out)
+static bool sweep(nlc_iteration *q, nlc_outcome *out)
+{
+    const nlc_response response = q->n->settings.model->self ? NLC_OF_STATE : NLC_OF_FORCES;
+    out->info.sweeps++;
+    out->status = nlc_displace(q->n, response, q->n->force, q->normal, &out->info.culprit);
+    return out->status == NLC_OK;
+}
+
+/*
+ * y = the right side of the equation at x, coupling weakened; returns the largest change of a force, relative.  twice: the bound
+ * leaves nothing of a sweep before it.
+ */
+static double weakened_map(nlc_iteration *q, const double *x, double *y, bool twice, nlc_outcome *out)
 {
     nlc_network *n = q->n;
     nlc_bound bound = {INFINITY, -1, 0};
@@ -31,11 +42,7 @@ static double weakened_map(nlc_iteration *q, const double *x, double *y, nlc_out
         n->force[c] = k * root * root * root;
         n->slope[c] = 1.5 * k * root;
     }
-    if (n->settings.model->self) { /* the bound wants to know what contacts do to themselves */
-        out->info.sweeps++;
-        out->status = nlc_displace(n, NLC_OF_STATE, n->force, q->normal, &out->info.culprit);
-        if (out->status != NLC_OK) return 0;
-    }
+    if (n->settings.model->self && !sweep(q, out)) return 0; /* the bound wants to know what contacts do to themselves */
     nlc_bound_balance(n, q->normal, NLC_BALANCE_PASSES, 0, &bound);
     out->info.blocks += bound.blocks;
     out->info.lambda_upper = bound.upper;
@@ -51,9 +58,7 @@ static double weakened_map(nlc_iteration *q, const double *x, double *y, nlc_out
         out->info.coupling = n->weakening[k];
         out->info.weakest_particle = k;
     }
-    out->info.sweeps++;
-    out->status = nlc_displace(n, NLC_OF_FORCES, n->force, q->normal, &out->info.culprit);
-    if (out->status != NLC_OK) return 0;
+    if ((!n->settings.model->self || twice) && !sweep(q, out)) return 0;
     for (int64_t c = 0; c < n->contact_count; c++) {
         const int64_t i = n->i[c], j = n->j[c];
         const double a = i < n->particle_count ? n->weakening[i] : 1, b = j < n->particle_count ? n->weakening[j] : 1;
@@ -134,6 +139,7 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
     double *x = n->spare[0], *y = n->spare[1], *best = n->spare[2], *kept = n->spare[3], mark = INFINITY;
     int waited = 0;
     bool cold, beyond = false;
+    const bool twice = n->settings.model->self && nlc_on_any_rank(n, n->most_contacts > NLC_BLOCK);
     nlc_anderson h;
     start_from_overlaps(q, x);
     const double applied = applied_overlaps(q, x, best, &cold); /* best is the start given */
@@ -142,9 +148,9 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
     nlc_anderson_reset(&h, FIRST_STEP);
     if (start < HERTZ) memcpy(x, start == GIVEN ? best : kept, (size_t)count * sizeof *x);
     out->status = NLC_WARNING_NOT_CONVERGED;
-    const int64_t most = n->settings.max_sweeps - (n->settings.model->self ? 1 : 0); /* those take two sweeps a step */
+    const int64_t most = n->settings.max_sweeps - twice;
     for (int k = 0; k < STEPS && out->info.sweeps < most; k++) {
-        const double change = weakened_map(q, x, y, out);
+        const double change = weakened_map(q, x, y, twice, out);
         if (out->status < 0) return;
         out->status = NLC_WARNING_NOT_CONVERGED;
         out->info.residual = change / NLC_MARGIN;

@@ -123,6 +123,26 @@ START_TEST(nearly_one_place)
 }
 END_TEST
 
+/* A crystal at a strain of 25 %, past the end in every model but Hertz's, from nothing and from another load. */
+START_TEST(every_model_is_weakened)
+{
+    for (int start = 0; start < 2; start++) {
+        rng g = {5};
+        scene s;
+        scene_init(&s);
+        scene_lattice(&s, BODY_CENTRED, 3, 1, 0.46, 0.25, 1e-3, &g);
+        s.options.model = _i;
+        if (start) solve_at(&s, 0, 0.99, 1e-10);
+        const trial r = solve_at(&s, 0, 1, 1e-10);
+        if (verbose()) printf("model %d: status %d, %jd sweeps, coupling %.4f\n", _i, r.status, (intmax_t)r.info.sweeps, r.info.coupling);
+        ck_assert_int_eq(r.status, _i == NLC_MODEL_HERTZ ? NLC_OK : NLC_WARNING_WEAKENED | NLC_WARNING_CLOSE);
+        ck_assert(r.info.residual <= 1e-10);
+        ck_assert_int_le(r.info.sweeps, _i == NLC_MODEL_SPHERE ? 100 : 80); /* its circles have grown to the largest size there is */
+        scene_free(&s);
+    }
+}
+END_TEST
+
 /* Scenes whose stable branch ends: cells, noisy crystals, a packing of almost incompressible grains. */
 #define ENDING 8
 static const char *ending(scene *s, int which, double *end)
@@ -541,6 +561,7 @@ int main(void)
     tcase_add_loop_test(t, accepted_near_the_end, 0, 2);
     tcase_add_loop_test(t, overlaps_grow, 0, 2);
     tcase_add_loop_test(t, beyond_the_end, 0, ENDING);
+    tcase_add_loop_test(t, every_model_is_weakened, 0, 6);
     suite_add_tcase(suite, t);
     return run_suite(suite);
 }
