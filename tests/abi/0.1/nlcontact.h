@@ -220,6 +220,7 @@ typedef struct nlc_info {
     int64_t left_out;
     int64_t clusters;
     int64_t settled;
+
 } nlc_info;
 
 typedef struct nlc_model_record {
