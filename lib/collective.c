@@ -82,8 +82,7 @@ static double tell(nlc_network *n, double first)
  */
 static void leave(nlc_network *n, bool heard, int place)
 {
-    if (heard) tell(n, LEAVING);
-    else if (tell(n, FAILED) < LEAVING && place != LAST_BUT_ONE) tell(n, LEAVING);
+    if (heard || (tell(n, FAILED) < LEAVING && place != LAST_BUT_ONE)) tell(n, LEAVING);
 }
 
 /* The next reduction, of count values behind the first one. */
