@@ -250,7 +250,7 @@ $(B)/tests/fuzz/fuzz_%: $(B)/tests/fuzz/fuzz_%.o $(B)/tests/fuzz/fuzz.o $(FUZZ_M
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -pthread -o $@ $^ $(LIBS)
 fuzz-programs: $(FUZZ)
 check: $(FUZZ)
-fuzz: ## look for inputs that the library cannot stand, a minute; FUZZ_RUNS=1e7 inputs for each program
+fuzz: ## look for inputs that the library cannot stand, a minute; FUZZ_RUNS=1e7 inputs for each program, FUZZ_AFL=1e7 by AFL++
 	@S='$(abspath $(S))' B='$(abspath $(B))' MAKE='$(MAKE)' sh $(S)/tests/fuzz/run
 analyse: ## static analysers on the library: gcc -fanalyzer, clang-tidy, cppcheck, as far as they are here
 	@python3 $(S)/tests/analyse.py
