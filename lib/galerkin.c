@@ -127,9 +127,9 @@ static verdict certify(nlc_iteration *q, double beta, nlc_outcome *out)
  * A rough look before convergence, when a Ritz value comes near 1, and a closer one later on: is it hopeless?  Saves sweeps, decides
  * no result.
  */
-static bool too_near(nlc_iteration *q, progress *s, nlc_outcome *out)
+static bool too_near(nlc_iteration *q, bool closer, nlc_outcome *out)
 {
-    const double limit = 1 - NLC_MARGIN + (s->looks++ == 0 ? 0.001 : 0);
+    const double limit = 1 - NLC_MARGIN + (closer ? 0 : 0.001);
     nlc_bound bound = {INFINITY, -1, 0};
     set_slopes(q);
     nlc_bound_balance(q->n, q->normal, NLC_BALANCE_PASSES, 1 - NLC_MARGIN, &bound);
@@ -258,8 +258,10 @@ static verdict iterate(nlc_iteration *q, progress *s, nlc_outcome *out)
         if ((out->info.sweeps - s->begun > GIVE_UP && q->theta > HOPELESS) || s->critical >= 6) return BEYOND;
         if (out->info.sweeps - s->begun > LOST && q->largest_residual >= q->largest_force) return GO_ON;
         if (!advance(q, s, out)) return DONE;
-        if (s->looks > 1 || q->theta <= 1 - 2 * NLC_MARGIN) continue;
-        if (q->largest_residual < (s->looks > 0 ? NEARER : NEAR) * q->largest_force && too_near(q, s, out)) return BEYOND;
+        const bool closer = q->largest_residual < NEARER * q->largest_force; /* the bound may be above lambda by some margins */
+        if (s->looks > closer || q->theta <= 1 - (closer ? 4 : 2) * NLC_MARGIN || q->largest_residual >= NEAR * q->largest_force) continue;
+        s->looks = closer ? 2 : 1;
+        if (too_near(q, closer, out)) return BEYOND;
     }
 }
 
