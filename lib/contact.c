@@ -36,7 +36,8 @@ void nlc_set_approach(nlc_network *n, const double *force)
     for (int64_t c = 0; c < n->contact_count; c++) {
         n->approach[c] = 0;
         if (!(force[c] > 0)) continue;
-        const double x = nlc_hertz_overlap(nlc_join(n->stiffness[c], n->stiffness_unit), force[c]);
+        const double own = nlc_hertz_overlap(nlc_join(n->stiffness[c], n->stiffness_unit), force[c]);
+        const double x = nlc_is_finite(own) ? own : FARTHEST; /* of a stiffness of 0 in these units, too */
         n->approach[c] = x < largest_approach(n, c) ? x : x < FARTHEST ? -x : -FARTHEST;
     }
 }
