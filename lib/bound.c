@@ -8,6 +8,7 @@
 
 /* No side gets less: a share near zero would make its particle's block huge. */
 #define SHARE_MIN 0.05
+#define HUGE_BOUND 1e100 /* squares and ratios of what is less are in range */
 
 /* Shares in the ratio of a to b, by the same roundings whichever side is called i. */
 static void set_shares(nlc_network *n, int64_t c, double a, double b)
@@ -156,6 +157,8 @@ void nlc_bound_balance(nlc_network *n, const double *normal, int passes, double 
             result->where = k;
         }
         nlc_exchange_particles(n, n->bound);
+        for (int64_t k = n->owned; k < n->particle_count; k++) /* whatever others have sent */
+            n->bound[k] = n->bound[k] < NLC_BOUND_FLOOR ? NLC_BOUND_FLOOR : n->bound[k] < HUGE_BOUND ? n->bound[k] : HUGE_BOUND;
         result->upper = nlc_largest_over_ranks(n, result->upper, &result->where);
         if (result->upper <= enough || pass == passes || n->ranks.over) return;
         move_shares(n);

@@ -112,13 +112,15 @@ void nlc_case_one_coefficients(double *coefficient, const nlc_block *a, int c, c
     }
 }
 
+/* Of two equal directions, in squares: much less than distances that are told apart, and none overflows. */
+#define NO_DISTANCE 0x1p-260
 static void ring_of_squares(const nlc_block *restrict a, double *restrict sum, int shift, int n, const nlc_kernel *kernel)
 {
     const double c0 = kernel->c[0], c1 = kernel->c[1], c2 = kernel->c[2];
     for (int c = 0; c < n; c++) {
         const int d = c + shift;
         double dx = a->x[c] - a->x[d], dy = a->y[c] - a->y[d], dz = a->z[c] - a->z[d];
-        double t = dx * dx + dy * dy + dz * dz, r = 1 / sqrt(t + DBL_MIN), k = c1 + r * (c0 + c2 * t);
+        double t = dx * dx + dy * dy + dz * dz, r = 1 / sqrt(t + NO_DISTANCE), k = c1 + r * (c0 + c2 * t);
         sum[c] += k * k * a->force[d];
     }
 }

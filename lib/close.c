@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* close.c - circles of contact that overlap each other: point forces are no model of these. */
-#include "crowd.h"
 #include "parallel.h"
 #include "tree.h"
 
@@ -116,12 +115,18 @@ static bool is_close(const job *w, int64_t k)
     return may_overlap(n, k, here) && overlap_on(n, k, w->overlap, w->normal);
 }
 
+/* Whether a look at its pairs grows a tree, for which there is room once. */
+static bool wants_tree(const nlc_network *n, int64_t k)
+{
+    return n->start[k + 1] - n->start[k] >= NLC_TREE_FROM;
+}
+
 static void close_task(void *work, int64_t v)
 {
     const job *w = work;
     bool close = false;
     for (int64_t k = v * NLC_WINDOW; k < nlc_end_of(v, NLC_WINDOW, w->n->owned) && !close; k++)
-        close = !nlc_is_crowd(w->n, k) && is_close(w, k);
+        close = !wants_tree(w->n, k) && is_close(w, k);
     w->n->piece[v].flag[0] = close;
 }
 
@@ -134,7 +139,7 @@ bool nlc_circles_overlap(const nlc_network *n, const double *overlap, const doub
     for (int64_t s = 0; s < nlc_slabs(n); s++) all.largest = n->piece[s].force > all.largest ? n->piece[s].force : all.largest;
     nlc_for(n, close_task, &all, nlc_windows(n));
     for (int64_t v = 0; v < nlc_windows(n); v++) close |= n->piece[v].flag[0];
-    for (int64_t k = 0; k < n->owned && n->most_contacts >= NLC_TREE_FROM && !close; k++) /* there is room for one tree */
-        close = nlc_is_crowd(n, k) && is_close(&all, k);
+    for (int64_t k = 0; k < n->owned && n->most_contacts >= NLC_TREE_FROM && !close; k++)
+        close = wants_tree(n, k) && is_close(&all, k);
     return close;
 }

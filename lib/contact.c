@@ -128,7 +128,7 @@ void nlc_add_self(nlc_network *n, nlc_response response, const double *force, in
         return;
     }
     const nlc_self self = n->settings.model->self(nlc_kernel_of(n, particle), t2, tilt);
-    const double p = 0.5 * (force[e >> 1] + fabs(force[e >> 1])); /* a pull acts as a point force */
+    const double p = 0.5 * force[e >> 1] + 0.5 * fabs(force[e >> 1]); /* a pull acts as a point force */
     const double wide = quartic(n, e, particle, t2) * length;
     if (response == NLC_OF_ENERGY) {
         n->side[e] -= moment / 10 + U * p * self.energy + wide * (2. / 35);

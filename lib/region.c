@@ -122,7 +122,7 @@ void nlc_settle_region(nlc_network *n, const double *overlap, const double *norm
     if (!sweep(n, overlap, normal, out)) return;
     const double change = find_changes(n, overlap, &moving);
     if (change <= AS_GOOD * n->settings.tolerance || (double)moving > MOVING * (double)n->contact_count) return;
-    count = add_seam(n, layers_for(change / (QUIET * n->settings.tolerance)));
+    count = add_seam(n, layers_for(nlc_ratio(change, QUIET * n->settings.tolerance)));
     if ((double)count > REGION * (double)n->contact_count) return;
     nlc_build_part(n, n->origin, count, overlap, normal);
     n->part->settings.max_sweeps -= out->info.sweeps;

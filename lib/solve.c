@@ -70,6 +70,7 @@ static void start_from(nlc_network *n, const double *overlap, const double *nonl
         n->current[c] = g;
     }
     if (n->swept) n->swept = !nlc_on_any_rank(n, capped);
+    if (!n->swept) n->known_bound = 1;
 }
 
 void nlc_start_over(nlc_outcome *out)

@@ -173,6 +173,7 @@ static bool in_range(const nlc_network *n, const double *force, const double *no
     int e = nlc_exponent_above(nlc_top(n, force)) + n->coupling_exponent +
             nlc_exponent_above(n->unit) + nlc_exponent_above((double)n->contact_count) + 4;
     if (n->settings.model->shape == NLC_SHAPE_PLACE) e += 10; /* a point that is nearly straight above another */
+    if (n->settings.model->shape == NLC_SHAPE_MOMENTS) e += 60; /* moments of circles that nearly touch */
     return e + 512 <= 1020 || e + closeness(n, normal) <= 1020;
 }
 

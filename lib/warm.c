@@ -175,7 +175,9 @@ static inline void look_at(const nlc_iteration *q, const guess *from, int64_t c,
     *slope = 1.5 * rise;
     r->moving += size > n->settings.tolerance * scale;
     if (size <= r->ratio * scale) return;
-    r->ratio = nlc_ratio(size, scale);
+    const double ratio = nlc_ratio(size, scale); /* of next to nothing over nothing it may be less all the same */
+    if (ratio <= r->ratio) return;
+    r->ratio = ratio;
     r->where = c;
 }
 
@@ -263,7 +265,7 @@ static void hand_over(nlc_iteration *q, const guess *from, nlc_info *info, nlc_o
 /* What lambda may be for a residual of this size to mean an error within the tolerance. */
 static double limit_for(double ratio, double tolerance)
 {
-    const double limit = 1 - NLC_SAFETY * ratio / tolerance;
+    const double limit = 1 - nlc_ratio(NLC_SAFETY * ratio, tolerance);
     return limit < 1 - NLC_MARGIN ? limit : 1 - NLC_MARGIN;
 }
 
@@ -284,7 +286,7 @@ static verdict judge(nlc_iteration *q, const guess *from, double before, nlc_inf
     info->residual = r.ratio;
     info->worst_contact = r.where;
     if (!r.grown && info->lambda_upper <= limit) return SOLVED;
-    const double rest = r.ratio / tolerance;
+    const double rest = nlc_ratio(r.ratio, tolerance);
     if (!nlc_is_shared(n) && r.moving < n->contact_count / 10 && rest > LOCAL) return HAND_OVER; /* region.c does less */
     return limit < STEEP && rest < FAR && rest < SLOW * before ? AGAIN : HAND_OVER;
 }
@@ -312,10 +314,10 @@ bool nlc_is_solved(nlc_network *n, const double *overlap, const double *normal, 
     const bool shared = nlc_is_shared(n);
     if (!shared && active <= n->contact_count / 2) return false; /* contacts are left out, which is better; ranks leave none */
     verdict v = sweep(&q, &from, INFINITY, &info, out);
-    while (v == AGAIN && out->info.sweeps < n->settings.max_sweeps) {
+    while (v == AGAIN && out->info.sweeps < n->settings.max_sweeps - 1) { /* the last one may be needed elsewhere */
         from = take_sweep(&q, 1);
         start(&q, &from);
-        v = sweep(&q, &from, info.residual / n->settings.tolerance, &info, out);
+        v = sweep(&q, &from, nlc_ratio(info.residual, n->settings.tolerance), &info, out);
     }
     if (v == OVER) return true;
     if ((v == AGAIN || v == HAND_OVER) && (shared || active > n->contact_count / 4 * 3)) hand_over(&q, &from, &info, out);
