@@ -151,6 +151,30 @@ START_TEST(weakened_by_many)
 }
 END_TEST
 
+/* Spheres with so many contacts that looks at them grow trees, for which there is room once. */
+START_TEST(crowds_by_many)
+{
+    enum { CROWDS = 4, CONTACTS = 600 };
+    scene s;
+    scene_init(&s);
+    s.options.tolerance = 1e-8;
+    const int32_t m = scene_material(&s, 1e9, 0.3);
+    int32_t centre[CROWDS];
+    for (int q = 0; q < CROWDS; q++) {
+        centre[q] = scene_particle(&s, 1, m);
+        for (int k = 0; k < CONTACTS; k++) scene_particle(&s, 0.01, m); /* a window of particles and more lies between two */
+    }
+    for (int q = 0; q < CROWDS; q++)
+        for (int k = 0; k < CONTACTS; k++) {
+            const double z = 1 - (2 * k + 1.0) / CONTACTS, r = sqrt(1 - z * z), angle = 2.399963229728653 * k;
+            scene_contact(&s, centre[q], centre[q] + 1 + k, 1e-4, r * cos(angle), r * sin(angle), z);
+        }
+    for (int q = 1; q < CROWDS; q++) scene_contact(&s, centre[q - 1], centre[q] + CONTACTS / 2 + q, 1e-4, 0.5, 0.5, 0.7 + 1e-3 * q);
+    try_pools(&s);
+    scene_free(&s);
+}
+END_TEST
+
 /* Two contacts in the same direction, on particles of later windows: the same culprit. */
 START_TEST(same_error)
 {
@@ -304,6 +328,7 @@ int main(void)
     TCase *t = tcase_create("threads");
     tcase_add_loop_test(t, whoever_does_it, 0, 10);
     tcase_add_test(t, weakened_by_many);
+    tcase_add_test(t, crowds_by_many);
     tcase_add_test(t, same_error);
     tcase_add_test(t, networks_of_their_own);
     tcase_add_loop_test(t, one_network_read_by_many, 0, 2);
