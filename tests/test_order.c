@@ -259,14 +259,14 @@ START_TEST(forces_stay_the_same)
 {
     static const char *const names[] = {"b_die125_rd0.80.csv", "c_hydrogel514_rest.csv", "a_mono1000_periodic.csv"};
     rng g = {(uint64_t)_i + 1};
-    scene packing, s, t;
+    scene given, s, t;
     order mixed;
     double largest = 0;
-    scene_init(&packing);
-    packing.options.tolerance = 1e-13;
-    scene_packing(&packing, names[_i], 0.2);
-    shuffle(&mixed, &packing, &g);
-    renumber(&s, &packing, &mixed);
+    scene_init(&given);
+    given.options.tolerance = 1e-13;
+    scene_packing(&given, names[_i], 0.2);
+    shuffle(&mixed, &given, &g);
+    renumber(&s, &given, &mixed);
     ck_assert_int_ge(scene_solve(&s, 0), 0);
     order o = order_of(&s);
     renumber(&t, &s, &o);
@@ -287,7 +287,7 @@ START_TEST(forces_stay_the_same)
     order_free(&mixed);
     scene_free(&t);
     scene_free(&s);
-    scene_free(&packing);
+    scene_free(&given);
 }
 END_TEST
 
