@@ -12,16 +12,8 @@
 
 static void set_stiffness(compression *s)
 {
-    const packing *p = &s->p;
-    for (int64_t c = 0; c < s->n.count; c++) {
-        const int32_t i = s->n.i[c], j = s->n.j[c];
-        const bool wall = j >= p->count;
-        const nlc_material a = p->materials[p->material[i]];
-        const nlc_material b = p->materials[wall ? p->wall_material[j - p->count] : p->material[j]];
-        s->stiffness[c] =
-            nlc_hertz_stiffness(a.young, a.poisson, p->radius[i], b.young, b.poisson, wall ? INFINITY : p->radius[j]);
-        s->largest = fmax(s->largest, s->n.overlap[c]);
-    }
+    neighbours_stiffness(&s->n, &s->p, s->stiffness);
+    for (int64_t c = 0; c < s->n.count; c++) s->largest = fmax(s->largest, s->n.overlap[c]);
 }
 
 int compression_open(compression *s, const char *name, char *error, size_t error_size)

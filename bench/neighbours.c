@@ -374,3 +374,14 @@ void neighbours_branch(const neighbours *list, const packing *p, int64_t contact
     double length = p->radius[i] + (j < p->count ? p->radius[j] : 0) - list->overlap[contact];
     for (int d = 0; d < 3; d++) b[d] = length * list->normal[contact][d];
 }
+
+void neighbours_stiffness(const neighbours *list, const packing *p, double *stiffness)
+{
+    for (int64_t c = 0; c < list->count; c++) {
+        const int32_t i = list->i[c], j = list->j[c];
+        const bool wall = j >= p->count;
+        const nlc_material a = p->materials[p->material[i]];
+        const nlc_material b = p->materials[wall ? p->wall_material[j - p->count] : p->material[j]];
+        stiffness[c] = nlc_hertz_stiffness(a.young, a.poisson, p->radius[i], b.young, b.poisson, wall ? INFINITY : p->radius[j]);
+    }
+}

@@ -40,6 +40,9 @@ int neighbours_find(neighbours *list, const packing *p, double reach, char *erro
 
 void neighbours_free(neighbours *list);
 
+/* neighbours_stiffness - Hertz' stiffness of each of them [N/m^1.5]. */
+void neighbours_stiffness(const neighbours *list, const packing *p, double *stiffness);
+
 /* The vector from i's centre to that of j's image, or to the foot on the wall [m]. */
 void neighbours_branch(const neighbours *list, const packing *p, int64_t contact, double b[3]);
 

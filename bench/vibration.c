@@ -21,16 +21,8 @@ static int fail(vibration *s, nlc_status status)
 
 static void set_stiffness(vibration *s)
 {
-    const packing *p = &s->p;
-    for (int64_t c = 0; c < s->n.count; c++) {
-        const int32_t i = s->n.i[c], j = s->n.j[c];
-        const bool wall = j >= p->count;
-        const nlc_material a = p->materials[p->material[i]];
-        const nlc_material b = p->materials[wall ? p->wall_material[j - p->count] : p->material[j]];
-        s->stiffness[c] =
-            nlc_hertz_stiffness(a.young, a.poisson, p->radius[i], b.young, b.poisson, wall ? INFINITY : p->radius[j]);
-        s->key[c] = (uint64_t)i << 32 | (uint64_t)j;
-    }
+    neighbours_stiffness(&s->n, &s->p, s->stiffness);
+    for (int64_t c = 0; c < s->n.count; c++) s->key[c] = (uint64_t)s->n.i[c] << 32 | (uint64_t)s->n.j[c];
 }
 
 /* Arrays of contacts for the new list, zeros. */
