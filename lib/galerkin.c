@@ -15,12 +15,11 @@
  * that the tolerance needs.  NLC_SAFETY is for the norm: the factor holds in the energy norm, in the largest component it was
  * exceeded by up to 1.4 on crystals, packings and clusters.
  */
-#include "bound.h"
+#include "certify.h"
 #include "collective.h"
 #include "iteration.h"
 
 #define ALL_FROM 0.35     /* Ritz value from which all directions are kept */
-#define BALANCE_FROM 0.9  /* another sweep is cheaper than balanced shares until |z| is a tenth of the tolerance */
 #define LONGEST_STEP 8    /* first steps, in units of the largest force nearby ... */
 #define SHORTEST 64       /* ... but no step is cut to less than one part in this */
 #define GIVE_UP 100       /* sweeps in a solve after which a stable solution is no longer expected */
@@ -36,8 +35,6 @@
 #define LINEAR_ENOUGH 0.1 /* of the tolerance: no less is asked of them */
 #define LINEAR_STEPS 6    /* nor more steps */
 #define ROUNDING 1e-13    /* residuals below may be rounding */
-
-typedef enum verdict { GO_ON, DONE, BEYOND, ROUNDED } verdict;
 
 typedef struct progress {
     double ratio, best; /* residual relative to the force nearby, and the smallest so far */
@@ -78,89 +75,30 @@ static bool evaluate(nlc_iteration *q, progress *s, nlc_outcome *out)
     return true;
 }
 
-static void set_slopes(nlc_iteration *q)
-{
-    for (int64_t c = 0; c < q->n->contact_count; c++) {
-        const double y = nlc_scaled_overlap(q, c);
-        q->n->slope[c] = 1.5 * nlc_scaled_stiffness(q, c) * sqrt(0.5 * (y + fabs(y)));
-    }
-}
-
-/* Whether an overlap exceeds what the slopes of the known bound are for. */
-static bool has_grown(const nlc_iteration *q)
-{
-    const double *start = q->n->spare[2];
-    int64_t grown = 0;
-    for (int64_t c = 0; c < q->n->contact_count; c++) {
-        const double y = nlc_scaled_overlap(q, c);
-        grown += y > 0 && y > nlc_weighed_overlap(start[c]);
-    }
-    return nlc_on_any_rank(q->n, grown > 0);
-}
-
-/* Whether lambda is proved to be low enough for the residual at hand; BEYOND if the bound says that it may not be stable. */
-static verdict certify(nlc_iteration *q, double beta, nlc_outcome *out)
-{
-    const double limit = 1 - NLC_MARGIN;
-    nlc_bound bound = {INFINITY, -1, 0};
-    if (beta > limit) beta = limit;
-    if (q->theta > beta && q->theta < limit) return GO_ON; /* a Ritz value is a lower bound */
-    if (q->n->known_bound <= beta && !has_grown(q)) {
-        out->info.lambda_upper = q->n->known_bound;
-        return DONE;
-    }
-    set_slopes(q);
-    bool good = nlc_bound_below(q->n, q->normal, beta, &bound), beyond = false;
-    if (!good && beta >= BALANCE_FROM) {
-        nlc_bound_balance(q->n, q->normal, NLC_BALANCE_PASSES, beta, &bound);
-        good = bound.upper <= beta;
-        beyond = bound.upper > limit;
-    }
-    out->info.blocks += bound.blocks;
-    out->info.lambda_upper = bound.upper;
-    out->info.critical_particle = bound.where;
-    if (nlc_is_over(q->n, out)) return DONE;
-    return good ? DONE : beyond ? BEYOND : GO_ON;
-}
-
-/*
- * A rough look before convergence, when a Ritz value comes near 1, and a closer one later on: is it hopeless?  Saves sweeps, decides
- * no result.
- */
-static bool too_near(nlc_iteration *q, bool closer, nlc_outcome *out)
-{
-    const double limit = 1 - NLC_MARGIN + (closer ? 0 : 0.001);
-    nlc_bound bound = {INFINITY, -1, 0};
-    set_slopes(q);
-    nlc_bound_balance(q->n, q->normal, NLC_BALANCE_PASSES, 1 - NLC_MARGIN, &bound);
-    out->info.blocks += bound.blocks;
-    return !nlc_is_over(q->n, out) && bound.upper > limit;
-}
-
 /* How far the iterate is from the end. */
-static verdict judge(nlc_iteration *q, progress *s, nlc_outcome *out)
+static nlc_verdict judge(nlc_iteration *q, progress *s, nlc_outcome *out)
 {
     const double tolerance = q->n->settings.tolerance, overall = q->largest_force;
-    if (q->largest_residual > RUNAWAY || overall > RUNAWAY) return BEYOND;
+    if (q->largest_residual > RUNAWAY || overall > RUNAWAY) return NLC_BEYOND;
     s->ratio = 0;
-    if (q->largest_residual <= 0) return certify(q, 1 - NLC_MARGIN, out);
+    if (q->largest_residual <= 0) return nlc_certify(q, 1 - NLC_MARGIN, out);
     s->ratio = nlc_ratio(q->largest_residual, overall);
-    if (s->ratio > tolerance && s->ratio > ROUNDING) return GO_ON;
+    if (s->ratio > tolerance && s->ratio > ROUNDING) return NLC_GO_ON;
     nlc_force_scales(q, false);
     s->ratio = nlc_relative_size(q, q->n->direction[0], &s->where);
     if (s->ratio <= tolerance) {
         const double energy = nlc_energy_residual(q);
         s->ratio = energy > s->ratio ? energy : s->ratio;
     }
-    if (nlc_is_over(q->n, out)) return DONE;
+    if (nlc_is_over(q->n, out)) return NLC_DONE;
     s->stalled = s->ratio < 0.5 * s->best ? 0 : s->stalled + (s->ratio < ROUNDING);
     s->best = s->ratio < s->best ? s->ratio : s->best;
     if (NLC_SAFETY * s->ratio <= tolerance) {
-        const verdict v = certify(q, 1 - NLC_SAFETY * s->ratio / tolerance, out);
-        if (v != GO_ON) return v;
+        const nlc_verdict v = nlc_certify(q, 1 - NLC_SAFETY * s->ratio / tolerance, out);
+        if (v != NLC_GO_ON) return v;
     }
-    if (s->stalled < 3) return GO_ON;
-    return certify(q, 1 - NLC_MARGIN, out) == DONE ? ROUNDED : BEYOND;
+    if (s->stalled < 3) return NLC_GO_ON;
+    return nlc_certify(q, 1 - NLC_MARGIN, out) == NLC_DONE ? NLC_ROUNDED : NLC_BEYOND;
 }
 
 /* Whether no step exceeds the force that its contact would have with the largest overlap nearby. */
@@ -239,29 +177,29 @@ static bool refresh(nlc_iteration *q, progress *s, nlc_outcome *out)
     return true;
 }
 
-static verdict iterate(nlc_iteration *q, progress *s, nlc_outcome *out)
+static nlc_verdict iterate(nlc_iteration *q, progress *s, nlc_outcome *out)
 {
     /* sweeps that a step needs after its own, to be judged */
     const int64_t more = nlc_is_linear(q->n->settings.model->shape) ? 0 : 1, most = q->n->settings.max_sweeps;
-    if (!refresh(q, s, out)) return DONE;
+    if (!refresh(q, s, out)) return NLC_DONE;
     s->first = false;
     if (s->repelled && out->info.sweeps < most) {
         nlc_relax(q);
-        if (!refresh(q, s, out)) return DONE;
+        if (!refresh(q, s, out)) return NLC_DONE;
     }
     for (bool first = true;; first = false) {
-        if (!first && !evaluate(q, s, out)) return DONE;
+        if (!first && !evaluate(q, s, out)) return NLC_DONE;
         const bool due = q->largest_residual <= s->refresh * q->largest_force || s->since >= LINEAR_STEPS;
-        if (!s->exact && (due || out->info.sweeps + more >= most) && !refresh(q, s, out)) return DONE;
-        const verdict v = s->exact ? judge(q, s, out) : GO_ON;
-        if (v != GO_ON || out->info.sweeps + more >= most) return v;
-        if ((out->info.sweeps - s->begun > GIVE_UP && q->theta > HOPELESS) || s->critical >= 6) return BEYOND;
-        if (out->info.sweeps - s->begun > LOST && q->largest_residual >= q->largest_force) return GO_ON;
-        if (!advance(q, s, out)) return DONE;
+        if (!s->exact && (due || out->info.sweeps + more >= most) && !refresh(q, s, out)) return NLC_DONE;
+        const nlc_verdict v = s->exact ? judge(q, s, out) : NLC_GO_ON;
+        if (v != NLC_GO_ON || out->info.sweeps + more >= most) return v;
+        if ((out->info.sweeps - s->begun > GIVE_UP && q->theta > HOPELESS) || s->critical >= 6) return NLC_BEYOND;
+        if (out->info.sweeps - s->begun > LOST && q->largest_residual >= q->largest_force) return NLC_GO_ON;
+        if (!advance(q, s, out)) return NLC_DONE;
         const bool closer = q->largest_residual < NEARER * q->largest_force; /* the bound may be above lambda by some margins */
         if (s->looks > closer || q->theta <= 1 - (closer ? 4 : 2) * NLC_MARGIN || q->largest_residual >= NEAR * q->largest_force) continue;
         s->looks = closer ? 2 : 1;
-        if (too_near(q, closer, out)) return BEYOND;
+        if (nlc_is_too_near(q, closer, out)) return NLC_BEYOND;
     }
 }
 
@@ -272,19 +210,19 @@ static void solve(nlc_network *n, const double *overlap, const double *normal, d
     progress s = {.ratio = 1e10, .best = INFINITY, .where = -1, .begun = out->info.sweeps, .first = true};
     if (!n->swept) n->known_bound = 1; /* it was for another start */
     nlc_iteration_start(&q, n, overlap, normal, part);
-    const verdict v = iterate(&q, &s, out);
+    const nlc_verdict v = iterate(&q, &s, out);
     if (out->status < 0) return;
     out->info.residual = NLC_SAFETY * s.ratio / (out->info.lambda_upper < 1 ? 1 - out->info.lambda_upper : NLC_MARGIN);
-    if (v == DONE && out->info.residual > n->settings.tolerance) out->info.residual = n->settings.tolerance; /* by rounding */
+    if (v == NLC_DONE && out->info.residual > n->settings.tolerance) out->info.residual = n->settings.tolerance; /* by rounding */
     out->info.worst_contact = s.where;
-    if (v == GO_ON) {
+    if (v == NLC_GO_ON) {
         nlc_force_scales(&q, false);
         out->info.residual = nlc_relative_size(&q, n->direction[0], &out->info.worst_contact);
         out->status = NLC_WARNING_NOT_CONVERGED;
         if (nlc_is_over(n, out)) return;
     }
-    if (v == ROUNDED) out->status = NLC_WARNING_ROUNDING;
-    if (v == BEYOND) nlc_weaken(&q, out);
+    if (v == NLC_ROUNDED) out->status = NLC_WARNING_ROUNDING;
+    if (v == NLC_BEYOND) nlc_weaken(&q, out);
     nlc_iteration_end(&q);
 }
 

@@ -182,7 +182,7 @@ static inline void nlc_set_units(nlc_network *n, int length, int stiffness)
 }
 
 /*
- * sweep.c: displacement of every side under the given forces into network->side, and the largest |force| on every
+ * displace.c: displacement of every side under the given forces into network->side, and the largest |force| on every
  * body into network->largest.  NLC_ERROR_COINCIDENT (culprit: a contact) or NLC_ERROR_RANGE; then both are undefined.
  */
 nlc_status nlc_displace(nlc_network *network, nlc_response response, const double *force, const double *normal, int64_t *culprit);
@@ -199,6 +199,10 @@ int64_t nlc_count_kept(const nlc_network *network);
 /* nlc_displace for the sides of one particle.  False: two directions are the same. */
 bool nlc_displace_particle(nlc_network *network, nlc_response response, const double *force, const double *normal,
                            int64_t particle);
+
+/* kept: room for the particle's coefficients, or NULL; known: they are there. */
+bool nlc_displace_kept(nlc_network *network, nlc_response response, const double *force, const double *normal, int64_t particle,
+                       double *kept, bool known);
 
 /* The later one of two contacts of a particle that lie in the same direction; -1: none do. */
 int64_t nlc_find_coincident(const nlc_network *network, const double *normal, int64_t particle);

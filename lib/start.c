@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* start.c - where a solve begins. */
+#include <string.h>
+
+#include "collective.h"
+#include "start.h"
+
+/* Largest overlap on each particle, 0 at least. */
+void nlc_largest_overlaps(nlc_network *n, const double *overlap)
+{
+    for (int64_t k = 0; k < n->particle_count; k++) n->largest[k] = 0;
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        const double x = overlap[c];
+        if (x <= 0) continue;
+        const int64_t i = n->i[c], j = n->j[c];
+        if (i < n->particle_count && x > n->largest[i]) n->largest[i] = x;
+        if (j < n->particle_count && x > n->largest[j]) n->largest[j] = x;
+    }
+}
+
+/*
+ * The caller's displacement as a start, capped where overlap + displacement would exceed 3 times the largest overlap on the
+ * two particles: that is where the stable branch ends for equal forces, and beyond it lies the unstable one.
+ */
+double nlc_start_of(const nlc_network *n, int64_t c, const double *overlap, const double *nonlocal)
+{
+    const double g = nonlocal ? nonlocal[c] : 0;
+    if (nlc_abs_bits(g) == 0) return 0;
+    const double a = n->largest[n->i[c]], b = n->largest[n->j[c]];
+    double cap = 3 * (a > b ? a : b) - overlap[c];
+    cap = cap > 0 ? cap : 0;
+    return g > cap ? cap : g < -cap ? -cap : g;
+}
+
+/* nonlocal may be n->current. */
+void nlc_start_from(nlc_network *n, const double *overlap, const double *nonlocal)
+{
+    bool capped = false;
+    if (nlc_is_shared(n)) memcpy(n->largest, nlc_shared_overlaps(n), (size_t)n->body_count * sizeof *n->largest);
+    else nlc_largest_overlaps(n, overlap);
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        const double g = nlc_start_of(n, c, overlap, nonlocal);
+        capped |= nonlocal && nlc_bits(g) != nlc_bits(nonlocal[c]);
+        n->current[c] = g;
+    }
+    if (n->swept) n->swept = !nlc_on_any_rank(n, capped);
+    if (!n->swept) n->known_bound = 1;
+}
