@@ -130,9 +130,10 @@ void nlc_build_part(nlc_network *n, const int64_t *origin, int64_t count, const 
 {
     nlc_network *p = n->part;
     p->settings = n->settings;
-    p->top = (nlc_tops){-1, -1, -1};
+    p->top = (nlc_tops){-1, -1, -1, -1};
     p->cached = n->cached = false; /* it is the same cache */
     p->stiffness_exponent = n->stiffness_exponent;
+    p->least_ratio = n->least_ratio;
     p->coupling_exponent = n->coupling_exponent;
     p->particle_count = p->contact_count = p->body_count = 0;
     p->self_contacts = false;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* close.c - circles of contact that overlap each other: point forces are no model of these. */
+#include "close.h"
+
 #include "parallel.h"
 #include "tree.h"
 
-/* The overlap that a contact has, or would have alone if others push it open. */
 static double alone(const nlc_network *n, const double *overlap, int64_t c)
 {
-    const double g = n->current[c];
-    return overlap[c] + 0.5 * (g + fabs(g));
+    return nlc_alone(overlap[c], nlc_answer(n, c));
 }
 
 /*
@@ -71,19 +71,11 @@ static bool overlap_on(const nlc_network *n, int64_t k, const double *overlap, c
     return false;
 }
 
-/*
- * x / (1 + R_smaller / R_larger) of a contact whose circle it makes larger than the largest such so far: R times that is at least the
- * square of the circle's radius on a particle of radius R.  The overlap x of contacts pushed open is the one that they would have alone.
- */
-static double larger_reduced(const nlc_network *n, const double *overlap, int64_t c, double largest)
-{
-    const double x = alone(n, overlap, c);
-    if (x <= largest) return largest; /* what it is reduced to is less */
-    const int64_t i = n->i[c], j = n->j[c];
-    const double R = i < n->particle_count ? n->radius[i] : INFINITY, S = j < n->particle_count ? n->radius[j] : INFINITY;
-    const double reduced = x / (1 + (R < S ? R : S) / (R < S ? S : R));
-    return reduced > largest ? reduced : largest;
-}
+typedef struct job {
+    const nlc_network *n;
+    const double *overlap, *normal;
+    double largest; /* reduced overlap */
+} job;
 
 /* Whether circles of radii up to (R reduced)^1/2 may overlap on a particle. */
 static bool may_overlap(const nlc_network *n, int64_t particle, double reduced)
@@ -91,18 +83,12 @@ static bool may_overlap(const nlc_network *n, int64_t particle, double reduced)
     return reduced >= 0.249 * n->closest[particle] * n->radius[particle];
 }
 
-typedef struct job {
-    const nlc_network *n;
-    const double *overlap, *normal;
-    double largest; /* reduced overlap */
-} job;
-
 static void reduce_task(void *work, int64_t s)
 {
     const job *w = work;
     double largest = 0;
     for (int64_t c = s * NLC_SLAB; c < nlc_end_of(s, NLC_SLAB, w->n->contact_count); c++)
-        largest = larger_reduced(w->n, w->overlap, c, largest);
+        largest = nlc_larger_circle(w->n, c, alone(w->n, w->overlap, c), largest);
     w->n->piece[s].force = largest;
 }
 
@@ -111,7 +97,10 @@ static bool is_close(const job *w, int64_t k)
     const nlc_network *n = w->n;
     double here = 0;
     if (n->scale[k] <= 0 || !may_overlap(n, k, w->largest)) return false;
-    for (int64_t p = n->start[k]; p < n->start[k + 1]; p++) here = larger_reduced(n, w->overlap, n->entry[p] >> 1, here);
+    for (int64_t p = n->start[k]; p < n->start[k + 1]; p++) {
+        const int64_t c = n->entry[p] >> 1;
+        here = nlc_larger_circle(n, c, alone(n, w->overlap, c), here);
+    }
     return may_overlap(n, k, here) && overlap_on(n, k, w->overlap, w->normal);
 }
 
@@ -130,13 +119,23 @@ static void close_task(void *work, int64_t v)
     w->n->piece[v].flag[0] = close;
 }
 
+/* The largest reduced overlap of all contacts. */
+static double largest_circle(job *all)
+{
+    const nlc_network *n = all->n;
+    double largest = 0;
+    if (n->answered) return n->top.circle;
+    nlc_for(n, reduce_task, all, nlc_slabs(n));
+    for (int64_t s = 0; s < nlc_slabs(n); s++) largest = n->piece[s].force > largest ? n->piece[s].force : largest;
+    return largest;
+}
+
 /* Most particles need no look at pairs: their circles are too small for the distance of the closest two directions. */
 bool nlc_circles_overlap(const nlc_network *n, const double *overlap, const double *normal)
 {
     job all = {n, overlap, normal, 0};
     bool close = false;
-    nlc_for(n, reduce_task, &all, nlc_slabs(n));
-    for (int64_t s = 0; s < nlc_slabs(n); s++) all.largest = n->piece[s].force > all.largest ? n->piece[s].force : all.largest;
+    all.largest = largest_circle(&all);
     nlc_for(n, close_task, &all, nlc_windows(n));
     for (int64_t v = 0; v < nlc_windows(n); v++) close |= n->piece[v].flag[0];
     for (int64_t k = 0; k < n->owned && n->most_contacts >= NLC_TREE_FROM && !close; k++)

@@ -47,10 +47,10 @@ static int closeness(const nlc_network *n, const double *normal)
     return nlc_exponent_above(smallest) < -1022 ? 512 : 1 - nlc_exponent_above(smallest) / 2;
 }
 
-/* Whether no intermediate of a sweep can overflow.  Exact closeness is looked at only where the bound from above fails. */
-static bool in_range(const nlc_network *n, const double *force, const double *normal)
+/* Whether no intermediate of a sweep of forces of up to top can overflow.  Exact closeness is looked at only where the bound from above fails. */
+static bool in_range(const nlc_network *n, double top, const double *normal)
 {
-    int e = nlc_exponent_above(nlc_top(n, force)) + n->coupling_exponent +
+    int e = nlc_exponent_above(top) + n->coupling_exponent +
             nlc_exponent_above(n->unit) + nlc_exponent_above((double)n->contact_count) + 4;
     if (n->settings.model->shape == NLC_SHAPE_PLACE) e += 10; /* a point that is nearly straight above another */
     if (n->settings.model->shape == NLC_SHAPE_MOMENTS) e += 60; /* moments of circles that nearly touch */
@@ -140,12 +140,12 @@ static int64_t displace_crowds(nlc_network *n, nlc_response response, const doub
 }
 
 static nlc_status displace(nlc_network *n, nlc_response response, const double *force, const double *weighed, const double *normal,
-                           int64_t *culprit)
+                           double top, int64_t *culprit)
 {
     job all = {n, response, force, weighed, normal};
     int64_t bad = -1;
     *culprit = -1;
-    if (n->settings.model->within && !in_range(n, force, normal)) return NLC_ERROR_RANGE;
+    if (n->settings.model->within && !in_range(n, top, normal)) return NLC_ERROR_RANGE;
     if (!n->cached) lay_out_cache(n);
     nlc_for(n, displace_task, &all, nlc_windows(n));
     for (int64_t w = 0; w < nlc_windows(n) && bad < 0; w++) bad = n->piece[w].bad;
@@ -171,12 +171,13 @@ nlc_status nlc_displace(nlc_network *network, nlc_response response, const doubl
 {
     const nlc_shape shape = network->settings.model->shape;
     if (response <= NLC_OF_STATE && (shape == NLC_SHAPE_MOMENTS || shape == NLC_SHAPE_RADIUS)) nlc_set_approach(network, force);
-    const nlc_status status = displace(network, response, force, NULL, normal, culprit);
+    const double top = network->settings.model->within ? nlc_top(network, force) : 0;
+    const nlc_status status = displace(network, response, force, NULL, normal, top, culprit);
     return exchange(network, status, *culprit);
 }
 
-nlc_status nlc_displace_weighed(nlc_network *network, const double *normal, int64_t *culprit)
+nlc_status nlc_displace_weighed(nlc_network *network, double top, const double *normal, int64_t *culprit)
 {
-    const nlc_status status = displace(network, NLC_OF_FORCES, network->force, network->share, normal, culprit);
+    const nlc_status status = displace(network, NLC_OF_FORCES, network->force, network->share, normal, top, culprit);
     return exchange(network, status, *culprit);
 }

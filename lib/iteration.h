@@ -58,6 +58,12 @@ static inline double nlc_weighed_overlap(double y)
     return 0.5 * (more + fabs(more));
 }
 
+/* At least its root, from that of the positive part of y. */
+static inline double nlc_weighed_root(double root)
+{
+    return 1.005 * root + 0.01;
+}
+
 /* units.c: sets the units. */
 void nlc_iteration_units(nlc_iteration *q, nlc_network *network, const double *overlap, const double *normal, double part);
 /* Sets the units, the start (network->force from network->current, which it scales) and the floor of the slopes. */

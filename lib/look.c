@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* look.c - what a sweep says of the start whose forces it was of: residuals, energy, overlaps. */
+#include "close.h"
 #include "collective.h"
 #include "slabs.h"
 #include "warm.h"
@@ -16,6 +17,7 @@ static inline void look_at(const nlc_iteration *q, const nlc_guess *from, int64_
     const double x = q->overlap[c] * q->load, g = n->side[2 * c] + n->side[2 * c + 1], k = nlc_scaled_stiffness(q, c);
     const double before = nlc_guessed_overlap(q, from, c), y = x + g, a = n->largest[n->i[c]], b = n->largest[n->j[c]];
     r->lost |= fabs(g) > 0.5 * NLC_FARTHEST;
+    r->circle = nlc_larger_circle(n, c, nlc_alone(x, g), r->circle);
     r->grown |= y > 0 && y > nlc_weighed_overlap(before);
     const double positive = 0.5 * (y + fabs(y)), rise = k * sqrt(positive < NLC_FARTHEST ? positive : NLC_FARTHEST);
     const double size = fabs(rise * positive - n->force[c]), scale = a > b ? a : b;
@@ -54,7 +56,7 @@ static void look_task(void *work, int64_t s)
             n->own[2 * c + 1] = slope;
         }
     }
-    n->piece[s] = (nlc_piece){.residual = r.ratio, .bad = r.where, .count = r.moving, .flag = {r.grown, r.lost}};
+    n->piece[s] = (nlc_piece){.residual = r.ratio, .bad = r.where, .count = r.moving, .force = r.circle, .flag = {r.grown, r.lost}};
 }
 
 static void add_task(void *work, int64_t v)
@@ -78,6 +80,7 @@ nlc_view nlc_look(nlc_iteration *q, const nlc_guess *from)
         r.grown |= piece->flag[0];
         r.lost |= piece->flag[1];
         r.moving += piece->count;
+        r.circle = piece->force > r.circle ? piece->force : r.circle;
         if (piece->residual > r.ratio) r.where = piece->bad;
         r.ratio = piece->residual > r.ratio ? piece->residual : r.ratio;
     }

@@ -138,6 +138,16 @@ void nlc_build_adjacency(nlc_network *n)
     }
 }
 
+static double least_ratio(const nlc_network *n)
+{
+    double least = INFINITY, largest = 0;
+    for (int64_t k = 0; k < n->particle_count; k++) {
+        least = n->radius[k] < least ? n->radius[k] : least;
+        largest = n->radius[k] > largest ? n->radius[k] : largest;
+    }
+    return !nlc_is_finite(largest) || !(largest > 0) ? 0 : least / largest;
+}
+
 static void build(nlc_network *n, const nlc_particles *p, const int32_t *i, const int32_t *j)
 {
     nlc_set_bodies(n, p);
@@ -150,6 +160,7 @@ static void build(nlc_network *n, const nlc_particles *p, const int32_t *i, cons
     nlc_build_adjacency(n);
     for (int64_t k = 0; k < n->body_count; k++) n->place[k] = -1;
     n->connected = nlc_is_connected(n);
+    n->least_ratio = least_ratio(n);
 }
 
 /* All that can be wrong with the arguments of nlc_network_init; nothing is written but *n, *settings and *culprit. */

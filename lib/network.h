@@ -52,9 +52,9 @@ typedef struct nlc_ranks {
     int64_t culprit;
 } nlc_ranks;
 
-/* Largest magnitudes of what is being solved for, on any rank; negative: not known. */
+/* Largest magnitudes of what is being solved for, on any rank; negative: not known.  circle: nlc_larger_circle, of this rank. */
 typedef struct nlc_tops {
-    double overlap, stiffness, nonlocal;
+    double overlap, stiffness, nonlocal, circle;
 } nlc_tops;
 
 struct nlc_network {
@@ -67,6 +67,7 @@ struct nlc_network {
     nlc_tops top;
     bool self_contacts;     /* some contact has i = j */
     int64_t most_contacts;  /* of a particle */
+    double least_ratio;     /* of the radii of two particles */
     bool connected;         /* all contacts are one cluster, see clusters.c */
     int scale_exponent;     /* no U reaches 2^ this */
     int coupling_exponent;  /* nor does any particle's kernel constant 2^ this */
@@ -88,6 +89,7 @@ struct nlc_network {
     bool cached; /* the cache holds the coefficients at the normals of this call */
     double known_bound; /* of lambda, if swept, until an overlap exceeds nlc_weighed_overlap of what it is at the start; 1: none is known */
     bool swept; /* side holds the displacements by the forces of current: the next iteration need not begin with a sweep */
+    bool answered; /* side holds the result, in the units at hand; else current does, in the caller's */
     /* Work space; sides on walls stay 0 in side, walls in largest */
     double *side;     /* [2 contacts] displacement of each side */
     double *force;    /* [contacts] */
@@ -187,8 +189,11 @@ static inline void nlc_set_units(nlc_network *n, int length, int stiffness)
  */
 nlc_status nlc_displace(nlc_network *network, nlc_response response, const double *force, const double *normal, int64_t *culprit);
 
-/* nlc_displace of forces; their weights are beside them in network->share, and a variant looks at them, see there. */
-nlc_status nlc_displace_weighed(nlc_network *network, const double *normal, int64_t *culprit);
+/*
+ * nlc_displace of network->force, top the largest; their weights are beside them in network->share, and a variant looks at them, see
+ * there.
+ */
+nlc_status nlc_displace_weighed(nlc_network *network, double top, const double *normal, int64_t *culprit);
 
 /* The variant of the sweep's inner loop; NULL: the portable code. */
 const nlc_variant *nlc_variant_of(const nlc_network *network);
@@ -252,12 +257,9 @@ bool nlc_is_loose(nlc_network *network, const double *overlap, const double *nor
 
 /*
  * warm.c: whether the displacements given solve the equations to the tolerance, after one sweep; if so they, anew, are in
- * network->current, or there is an error.  If not, and network->swept, the sweep need not be done again.
+ * network->side, or there is an error.  If not, and network->swept, the sweep need not be done again.
  */
 bool nlc_is_solved(nlc_network *network, const double *overlap, const double *normal, const double *nonlocal, nlc_outcome *outcome);
-
-/* close.c: whether somewhere the circles of two contacts with network->current overlap. */
-bool nlc_circles_overlap(const nlc_network *network, const double *overlap, const double *normal);
 
 /*
  * The force law.  No intermediate result exceeds the larger of stiffness and force.

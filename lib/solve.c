@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "active.h"
+#include "close.h"
 #include "collective.h"
 #include "slabs.h"
 #include "start.h"
@@ -62,7 +63,7 @@ static void accelerated(nlc_network *n, const double *overlap, const double *nor
 
 static void iterate(nlc_network *n, const double *overlap, const double *normal, const double *nonlocal, nlc_outcome *out)
 {
-    n->swept = false;
+    n->swept = n->answered = false;
     n->known_bound = 1;
     if (n->settings.method == NLC_METHOD_AUTOMATIC && nlc_is_solved(n, overlap, normal, nonlocal, out)) {
         nlc_warn_if_close(n, overlap, normal, out);
@@ -84,6 +85,7 @@ static void iterate(nlc_network *n, const double *overlap, const double *normal,
 
 static void all_hertz(nlc_network *n, nlc_outcome *out)
 {
+    n->answered = false;
     memset(n->current, 0, (size_t)n->contact_count * sizeof *n->current);
     out->info.left_out = n->contact_count;
 }
@@ -121,7 +123,7 @@ static bool meet(nlc_network *n, nlc_status status, const double *overlap, nlc_o
     }
     nlc_meet(n, NLC_SOLVE, status, out->info.culprit, n->largest, top, 5);
     memcpy(nlc_shared_overlaps(n), n->largest, (size_t)n->body_count * sizeof *n->largest);
-    n->top = (nlc_tops){top[0], top[1], top[2]};
+    n->top = (nlc_tops){top[0], top[1], top[2], -1};
     if (nlc_is_over(n, out)) return false;
     out->info.culprit = -1;
     out->status = check_range(top[0], (int)top[3], (int)top[4]);
@@ -152,7 +154,7 @@ static void result_task(void *work, int64_t s)
     const nlc_network *n = r->n;
     int64_t active = 0;
     for (int64_t c = s * NLC_SLAB; c < nlc_end_of(s, NLC_SLAB, n->contact_count); c++) {
-        r->nonlocal[c] = n->current[c];
+        r->nonlocal[c] = nlc_answer(n, c);
         r->force[c] = nlc_law(n->stiffness[c], r->overlap[c] + r->nonlocal[c]);
         active += r->force[c] > 0;
     }
@@ -184,7 +186,7 @@ nlc_status nlc_solve(nlc_network *network, double *NLC_RESTRICT force, double *N
     network->cached = false;
     if (out.status == NLC_OK) solve(network, overlap, normal, nonlocal, &out);
     if (shared && out.status >= 0) {
-        for (int64_t c = 0; c < count; c++) network->force[c] = nlc_law(network->stiffness[c], overlap[c] + network->current[c]);
+        for (int64_t c = 0; c < count; c++) network->force[c] = nlc_law(network->stiffness[c], overlap[c] + nlc_answer(network, c));
         nlc_take_leave(network, network->force, &out);
     }
     if (out.status < 0) return valid ? nlc_error(info, out.status, out.info.culprit) : out.status;

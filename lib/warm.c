@@ -31,7 +31,6 @@ static bool may_do(const nlc_network *n)
 typedef struct job {
     nlc_iteration *q;
     const nlc_guess *from;
-    double unit;
 } job;
 
 static void start_task(void *work, int64_t s)
@@ -40,23 +39,32 @@ static void start_task(void *work, int64_t s)
     const nlc_iteration *q = w->q;
     const nlc_network *n = q->n;
     int64_t active = 0;
+    double top = 0;
     for (int64_t c = s * NLC_SLAB; c < nlc_end_of(s, NLC_SLAB, n->contact_count); c++) {
-        const double y = nlc_guessed_overlap(q, w->from, c), k = nlc_scaled_stiffness(q, c);
-        const double U = n->unit * nlc_yield_of(n, n->i[c]) + n->unit * nlc_yield_of(n, n->j[c]);
-        n->force[c] = n->share[2 * c] = nlc_law(k, y);
-        n->share[2 * c + 1] = 1.5 * k * U * sqrt(nlc_weighed_overlap(y));
+        const double y = nlc_guessed_overlap(q, w->from, c), x = 0.5 * (y + fabs(y)), k = nlc_scaled_stiffness(q, c);
+        const double U = n->unit * nlc_yield_of(n, n->i[c]) + n->unit * nlc_yield_of(n, n->j[c]), root = sqrt(x);
+        const double force = k * root * x; /* nlc_law */
+        n->force[c] = n->share[2 * c] = force;
+        n->share[2 * c + 1] = 1.5 * k * U * nlc_weighed_root(root);
+        top = force > top ? force : top;
         active += y > 0;
     }
     n->piece[s].count = active;
+    n->piece[s].force = top;
 }
 
-/* Forces into n->force, and beside their weights into n->share; returns how many there are. */
-static int64_t start(nlc_iteration *q, const nlc_guess *from)
+/* Forces into n->force, and beside their weights into n->share; returns how many there are, *top the largest. */
+static int64_t start(nlc_iteration *q, const nlc_guess *from, double *top)
 {
-    job all = {q, from, 1};
+    job all = {q, from};
     int64_t active = 0;
+    *top = 0;
     nlc_for(q->n, start_task, &all, nlc_slabs(q->n));
-    for (int64_t s = 0; s < nlc_slabs(q->n); s++) active += q->n->piece[s].count;
+    for (int64_t s = 0; s < nlc_slabs(q->n); s++) {
+        const nlc_piece *piece = &q->n->piece[s];
+        active += piece->count;
+        *top = piece->force > *top ? piece->force : *top;
+    }
     return active;
 }
 
@@ -65,13 +73,13 @@ static void take_task(void *work, int64_t s)
     const job *w = work;
     const nlc_network *n = w->q->n;
     for (int64_t c = s * NLC_SLAB; c < nlc_end_of(s, NLC_SLAB, n->contact_count); c++)
-        n->current[c] = (n->side[2 * c] + n->side[2 * c + 1]) / w->unit;
+        n->current[c] = n->side[2 * c] + n->side[2 * c + 1];
 }
 
 /* What a sweep has left of n->side as displacements of contacts. */
-static nlc_guess take_sweep(nlc_iteration *q, double unit)
+static nlc_guess take_sweep(nlc_iteration *q)
 {
-    job all = {q, NULL, unit};
+    job all = {q, NULL};
     nlc_for(q->n, take_task, &all, nlc_slabs(q->n));
     return (nlc_guess){q->n->current, 1};
 }
@@ -106,6 +114,7 @@ static verdict judge(nlc_iteration *q, const nlc_guess *from, double before, nlc
     nlc_look_over_ranks(n, &r, info);
     if (nlc_is_over(n, out)) return OVER;
     if (r.lost) return GIVE_UP;
+    n->top.circle = r.circle / q->per_overlap;
     limit = limit_for(r.ratio, tolerance);
     info->residual = r.ratio;
     info->worst_contact = r.where;
@@ -115,11 +124,11 @@ static verdict judge(nlc_iteration *q, const nlc_guess *from, double before, nlc
     return limit < STEEP && rest < FAR && rest < SLOW * before ? AGAIN : HAND_OVER;
 }
 
-/* One sweep of the forces in n->force. */
-static verdict sweep(nlc_iteration *q, const nlc_guess *from, double before, nlc_info *info, nlc_outcome *out)
+/* One sweep of the forces in n->force, of which top is the largest. */
+static verdict sweep(nlc_iteration *q, const nlc_guess *from, double top, double before, nlc_info *info, nlc_outcome *out)
 {
     out->info.sweeps++;
-    if (nlc_displace_weighed(q->n, q->normal, &out->info.culprit) != NLC_OK) {
+    if (nlc_displace_weighed(q->n, top, q->normal, &out->info.culprit) != NLC_OK) {
         out->info.culprit = -1; /* it may be where nothing has to be looked at */
         return GIVE_UP;
     }
@@ -134,19 +143,20 @@ bool nlc_is_solved(nlc_network *n, const double *overlap, const double *normal, 
     if (!may_do(n)) return false;
     nlc_iteration_units(&q, n, overlap, normal, 1);
     nlc_guess from = {nonlocal, q.per_overlap};
-    const int64_t active = start(&q, &from);
+    double top;
+    const int64_t active = start(&q, &from, &top);
     const bool shared = nlc_is_shared(n);
     if (!shared && active <= n->contact_count / 2) return false; /* contacts are left out, which is better; ranks leave none */
-    verdict v = sweep(&q, &from, INFINITY, &info, out);
+    verdict v = sweep(&q, &from, top, INFINITY, &info, out);
     while (v == AGAIN && out->info.sweeps < n->settings.max_sweeps - 1) { /* the last one may be needed elsewhere */
-        from = take_sweep(&q, 1);
-        start(&q, &from);
-        v = sweep(&q, &from, nlc_ratio(info.residual, n->settings.tolerance), &info, out);
+        from = take_sweep(&q);
+        start(&q, &from, &top);
+        v = sweep(&q, &from, top, nlc_ratio(info.residual, n->settings.tolerance), &info, out);
     }
     if (v == OVER) return true;
     if ((v == AGAIN || v == HAND_OVER) && (shared || active > n->contact_count / 4 * 3)) hand_over(&q, &from, &info, out);
     if (v != SOLVED) return false;
-    take_sweep(&q, q.per_overlap);
+    n->answered = true;
     info.sweeps = out->info.sweeps;
     info.residual *= NLC_SAFETY / (1 - info.lambda_upper);
     if (info.residual > n->settings.tolerance) info.residual = n->settings.tolerance; /* by rounding */

@@ -23,6 +23,7 @@ typedef struct nlc_view {
     int64_t moving; /* contacts whose forces still change */
     bool grown;     /* an overlap is larger than its weight knows of */
     bool lost;      /* displacements beyond anything */
+    double circle;  /* nlc_larger_circle of all, in the units at hand */
 } nlc_view;
 
 /* look.c: of the contacts of this rank, after a sweep of the forces of a start. */

@@ -405,7 +405,7 @@ START_TEST(beside_the_sweep)
         n->force[c] = n->share[2 * c] = rng_uniform(&g, 0, 1) * 1e4;
         n->share[2 * c + 1] = rng_uniform(&g, 0, 1);
     }
-    nlc_assert_quiet(ck_assert_int_eq(nlc_displace_weighed(n, s.normal, &culprit), NLC_OK));
+    nlc_assert_quiet(ck_assert_int_eq(nlc_displace_weighed(n, 1e4, s.normal, &culprit), NLC_OK));
     for (int64_t k = 0; k < n->particle_count; k++) {
         long double squares = 0, closest = 4;
         const nlc_material m = s.rows[s.material[k]];
