@@ -4,7 +4,7 @@
 
 #include "block.h"
 #include "collective.h"
-#include "parallel.h"
+#include "slabs.h"
 
 /* No side gets less: a share near zero would make its particle's block huge. */
 #define SHARE_MIN 0.05
@@ -24,12 +24,15 @@ static void set_shares(nlc_network *n, int64_t c, double a, double b)
 }
 
 /* Shares by what the sides yield to a unit force; the whole of it where the other side does not yield at all. */
+static void share_out(void *network, int64_t from, int64_t end)
+{
+    nlc_network *n = network;
+    for (int64_t c = from; c < end; c++) set_shares(n, c, nlc_yield_of(n, n->i[c]), nlc_yield_of(n, n->j[c]));
+}
+
 static void first_shares(nlc_network *n)
 {
-    for (int64_t c = 0; c < n->contact_count; c++) {
-        const int64_t i = n->i[c], j = n->j[c];
-        set_shares(n, c, nlc_yield_of(n, i), nlc_yield_of(n, j));
-    }
+    nlc_for_contacts(n, share_out, n);
 }
 
 static bool couples(const nlc_network *n, int64_t particle)
@@ -57,9 +60,10 @@ static bool is_below(nlc_network *n, const double *normal, int64_t k, double bet
 }
 
 /* (U D / share)^1/2 of each side, into network->side; no share, no U. */
-static void set_roots(nlc_network *n)
+static void set_roots(void *network, int64_t from, int64_t end)
 {
-    for (int64_t c = 0; c < n->contact_count; c++)
+    nlc_network *n = network;
+    for (int64_t c = from; c < end; c++)
         for (int side = 0; side < 2; side++) {
             const int64_t body = side == 0 ? n->i[c] : n->j[c];
             const double share = n->share[2 * c + side];
@@ -98,7 +102,7 @@ static bool all_below(nlc_network *n, const double *normal, double beta, nlc_bou
 bool nlc_bound_below(nlc_network *n, const double *normal, double beta, nlc_bound *result)
 {
     first_shares(n);
-    set_roots(n);
+    nlc_for_contacts(n, set_roots, n);
     if (nlc_on_any_rank(n, !all_below(n, normal, beta, result))) return false;
     result->upper = beta;
     return true;

@@ -4,12 +4,14 @@
 
 #include "bound.h"
 #include "collective.h"
+#include "slabs.h"
 
 #define BALANCE_FROM 0.9  /* another sweep is cheaper than balanced shares until |z| is a tenth of the tolerance */
 
-static void set_slopes(nlc_iteration *q)
+static void set_slopes(void *iteration, int64_t from, int64_t end)
 {
-    for (int64_t c = 0; c < q->n->contact_count; c++) {
+    const nlc_iteration *q = iteration;
+    for (int64_t c = from; c < end; c++) {
         const double y = nlc_scaled_overlap(q, c);
         q->n->slope[c] = 1.5 * nlc_scaled_stiffness(q, c) * sqrt(0.5 * (y + fabs(y)));
     }
@@ -37,7 +39,7 @@ nlc_verdict nlc_certify(nlc_iteration *q, double beta, nlc_outcome *out)
         out->info.lambda_upper = q->n->known_bound;
         return NLC_DONE;
     }
-    set_slopes(q);
+    nlc_for_contacts(q->n, set_slopes, q);
     bool good = nlc_bound_below(q->n, q->normal, beta, &bound), beyond = false;
     if (!good && beta >= BALANCE_FROM) {
         nlc_bound_balance(q->n, q->normal, NLC_BALANCE_PASSES, beta, &bound);
@@ -55,7 +57,7 @@ bool nlc_is_too_near(nlc_iteration *q, bool closer, nlc_outcome *out)
 {
     const double limit = 1 - NLC_MARGIN + (closer ? 0 : 0.001);
     nlc_bound bound = {INFINITY, -1, 0};
-    set_slopes(q);
+    nlc_for_contacts(q->n, set_slopes, q);
     nlc_bound_balance(q->n, q->normal, NLC_BALANCE_PASSES, 1 - NLC_MARGIN, &bound);
     out->info.blocks += bound.blocks;
     return !nlc_is_over(q->n, out) && bound.upper > limit;

@@ -18,6 +18,7 @@
 #include "certify.h"
 #include "collective.h"
 #include "iteration.h"
+#include "slabs.h"
 
 #define ALL_FROM 0.35     /* Ritz value from which all directions are kept */
 #define LONGEST_STEP 8    /* first steps, in units of the largest force nearby ... */
@@ -57,8 +58,7 @@ static bool sweep(nlc_iteration *q, nlc_response response, const double *force, 
     out->info.sweeps++;
     out->status = nlc_displace(n, response, force, q->normal, &out->info.culprit);
     if (out->status != NLC_OK) return false;
-    const double *side = n->side;
-    for (int64_t c = 0; c < n->contact_count; c++) displacement[c] = side[2 * c] + side[2 * c + 1];
+    nlc_add_sides(n, displacement);
     return true;
 }
 

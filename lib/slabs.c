@@ -1,6 +1,47 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
-/* slabs.c - what is asked of all contacts, slab by slab. */
+/* slabs.c - loops over contacts and particles, slab by slab and window by window. */
 #include "slabs.h"
+
+typedef struct ranges {
+    nlc_range task;
+    void *work;
+    int64_t size, count;
+} ranges;
+
+static void range_task(void *work, int64_t k)
+{
+    const ranges *r = work;
+    r->task(r->work, k * r->size, nlc_end_of(k, r->size, r->count));
+}
+
+void nlc_for_contacts(const nlc_network *n, nlc_range task, void *work)
+{
+    ranges all = {task, work, NLC_SLAB, n->contact_count};
+    nlc_for(n, range_task, &all, nlc_slabs(n));
+}
+
+void nlc_for_particles(const nlc_network *n, nlc_range task, void *work)
+{
+    ranges all = {task, work, NLC_WINDOW, n->owned};
+    nlc_for(n, range_task, &all, nlc_windows(n));
+}
+
+typedef struct sums {
+    const double *side;
+    double *displacement;
+} sums;
+
+static void add_sides(void *work, int64_t from, int64_t end)
+{
+    const sums *w = work;
+    for (int64_t c = from; c < end; c++) w->displacement[c] = w->side[2 * c] + w->side[2 * c + 1];
+}
+
+void nlc_add_sides(const nlc_network *n, double *displacement)
+{
+    sums all = {n->side, displacement};
+    nlc_for_contacts(n, add_sides, &all);
+}
 
 typedef struct question {
     const nlc_network *n;

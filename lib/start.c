@@ -3,13 +3,36 @@
 #include <string.h>
 
 #include "collective.h"
+#include "slabs.h"
 #include "start.h"
 
-/* Largest overlap on each particle, 0 at least. */
+/* What passes over contacts and particles have in common. */
+typedef struct job {
+    nlc_network *n;
+    const double *overlap;
+} job;
+
+static void largest_on(void *work, int64_t from, int64_t end)
+{
+    const job *w = work;
+    const nlc_network *n = w->n;
+    for (int64_t k = from; k < end; k++) {
+        double largest = 0;
+        for (int64_t p = n->start[k]; p < n->start[k + 1]; p++) {
+            const double x = w->overlap[n->entry[p] >> 1];
+            largest = x > largest ? x : largest;
+        }
+        n->largest[k] = largest;
+    }
+}
+
+/* Contact by contact memory is read in the order that it has, but threads would meet on particles. */
 void nlc_largest_overlaps(nlc_network *n, const double *overlap)
 {
-    for (int64_t k = 0; k < n->particle_count; k++) n->largest[k] = 0;
-    for (int64_t c = 0; c < n->contact_count; c++) {
+    job all = {n, overlap};
+    for (int64_t k = 0; k < n->body_count; k++) n->largest[k] = 0;
+    if (n->settings.parallel_for) nlc_for_particles(n, largest_on, &all);
+    for (int64_t c = 0; c < n->contact_count && !n->settings.parallel_for; c++) {
         const double x = overlap[c];
         if (x <= 0) continue;
         const int64_t i = n->i[c], j = n->j[c];

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
-/* start.h - the parts of a solve that solve.c and solve_clusters.c share. */
+/* start.h - the parts of a solve that several files share. */
 #ifndef NLC_START_H
 #define NLC_START_H
 
 #include "network.h"
 
-/* start.c: the largest overlap on each particle, 0 at least, into network->largest. */
+/* start.c: the largest overlap on each particle, 0 at least, into network->largest; of ghosts it may be less. */
 void nlc_largest_overlaps(nlc_network *network, const double *overlap);
 
 /* Where contact c begins; network->largest are the largest overlaps. */

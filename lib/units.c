@@ -2,6 +2,8 @@
 /* units.c - the units of an iteration, its start and its end. */
 #include "collective.h"
 #include "iteration.h"
+#include "slabs.h"
+#include "start.h"
 
 /* Minus the exponent of the power of 2^n that is next to x > 0 from below; 0 for 0. */
 static int per_unit_of(double x, int n)
@@ -17,13 +19,8 @@ static void largest_overlaps(nlc_iteration *q)
 {
     nlc_network *n = q->n;
     const bool shared = nlc_is_shared(n);
-    for (int64_t k = 0; k < n->body_count; k++) n->largest[k] = shared ? nlc_shared_overlaps(n)[k] * q->load : 0;
-    for (int64_t c = 0; c < n->contact_count && !shared; c++) {
-        const double x = q->overlap[c] * q->load;
-        const int64_t i = n->i[c], j = n->j[c];
-        if (i < n->particle_count && x > n->largest[i]) n->largest[i] = x;
-        if (j < n->particle_count && x > n->largest[j]) n->largest[j] = x;
-    }
+    if (!shared) nlc_largest_overlaps(n, q->overlap);
+    for (int64_t k = 0; k < n->body_count; k++) n->largest[k] = (shared ? nlc_shared_overlaps(n) : n->largest)[k] * q->load;
 }
 
 void nlc_iteration_units(nlc_iteration *q, nlc_network *n, const double *overlap, const double *normal, double part)
@@ -39,12 +36,11 @@ void nlc_iteration_units(nlc_iteration *q, nlc_network *n, const double *overlap
     nlc_set_units(n, length, stiffness);
 }
 
-void nlc_iteration_start(nlc_iteration *q, nlc_network *n, const double *overlap, const double *normal, double part)
+static void begin(void *work, int64_t from, int64_t end)
 {
-    nlc_iteration_units(q, n, overlap, normal, part);
-    largest_overlaps(q);
-    for (int64_t k = 0; k < n->particle_count; k++) n->weakening[k] = 1;
-    for (int64_t c = 0; c < n->contact_count; c++) {
+    const nlc_iteration *q = work;
+    const nlc_network *n = q->n;
+    for (int64_t c = from; c < end; c++) {
         const double a = n->largest[n->i[c]], b = n->largest[n->j[c]], top = a > b ? a : b;
         n->current[c] *= q->per_overlap;
         n->force[c] = nlc_scaled_force(q, c);
@@ -54,16 +50,30 @@ void nlc_iteration_start(nlc_iteration *q, nlc_network *n, const double *overlap
     }
 }
 
+void nlc_iteration_start(nlc_iteration *q, nlc_network *n, const double *overlap, const double *normal, double part)
+{
+    nlc_iteration_units(q, n, overlap, normal, part);
+    largest_overlaps(q);
+    for (int64_t k = 0; k < n->particle_count; k++) n->weakening[k] = 1;
+    nlc_for_contacts(n, begin, q);
+}
+
 double nlc_overlap_nearby(const nlc_iteration *q, int64_t c)
 {
     const double root = q->n->floor[c] / (NLC_SLOPE_FLOOR * nlc_scaled_stiffness(q, c));
     return root * root;
 }
 
-void nlc_iteration_end(nlc_iteration *q)
+static void finish(void *work, int64_t from, int64_t end)
 {
-    for (int64_t c = 0; c < q->n->contact_count; c++) {
+    const nlc_iteration *q = work;
+    for (int64_t c = from; c < end; c++) {
         const double highest = NLC_FARTHEST - q->overlap[c] * q->load;
         q->n->current[c] = (q->n->current[c] < highest ? q->n->current[c] : highest) / q->per_overlap;
     }
+}
+
+void nlc_iteration_end(nlc_iteration *q)
+{
+    nlc_for_contacts(q->n, finish, q);
 }

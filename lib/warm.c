@@ -68,19 +68,10 @@ static int64_t start(nlc_iteration *q, const nlc_guess *from, double *top)
     return active;
 }
 
-static void take_task(void *work, int64_t s)
-{
-    const job *w = work;
-    const nlc_network *n = w->q->n;
-    for (int64_t c = s * NLC_SLAB; c < nlc_end_of(s, NLC_SLAB, n->contact_count); c++)
-        n->current[c] = n->side[2 * c] + n->side[2 * c + 1];
-}
-
 /* What a sweep has left of n->side as displacements of contacts. */
 static nlc_guess take_sweep(nlc_iteration *q)
 {
-    job all = {q, NULL};
-    nlc_for(q->n, take_task, &all, nlc_slabs(q->n));
+    nlc_add_sides(q->n, q->n->current);
     return (nlc_guess){q->n->current, 1};
 }
 
