@@ -570,6 +570,32 @@ START_TEST(closest)
 }
 END_TEST
 
+/* Two wide circles away from a crowd of points, each alone on its face of the tree's cube: all depends on their reach. */
+START_TEST(wide_circles)
+{
+    rng g = {54};
+    scene s;
+    planet(&s, CAP, 200, 0, &g);
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    for (int64_t c = 0; c < s.contacts; c++) s.overlap[c] = 0;
+    for (int round = 0; round < 50; round++) {
+        const double turn = rng_uniform(&g, 0.9, 1.5); /* from x, the first one, towards y; the crowd is around z */
+        for (int x = 0; x < 3; x++) {
+            s.normal[x] = (s.i[0] == 0 ? 1 : -1) * (x == 0);
+            s.normal[3 + x] = (s.i[1] == 0 ? 1 : -1) * (x == 0 ? cos(turn) : x == 1 ? sin(turn) : 0);
+        }
+        for (int touch = 0; touch < 2; touch++) {
+            double least = NAN;
+            s.overlap[0] = rng_uniform(&g, 0.3, 0.7) * 2 * sin(turn / 2) * (touch ? 1.001 : 0.999);
+            s.overlap[1] = 2 * sin(turn / 2) * (touch ? 1.001 : 0.999) - s.overlap[0];
+            nlc_assert_quiet(ck_assert(nlc_least_apart(&least, s.network, s.normal, 0, size_of, s.overlap, 0)));
+            ck_assert(touch ? least < 0 : least >= 0);
+        }
+    }
+    scene_free(&s);
+}
+END_TEST
+
 /* ---- work */
 
 /* Pairs looked at in a sweep, a contact. */
@@ -622,6 +648,7 @@ int main(void)
     tcase_add_loop_test(t, solutions, 0, 8);
     tcase_add_test(t, coincidences);
     tcase_add_loop_test(t, closest, 0, KINDS);
+    tcase_add_test(t, wide_circles);
     tcase_add_loop_test(t, work_grows_like_the_contacts, 0, 3);
     time_limit(t, 120);
     suite_add_tcase(suite, t);

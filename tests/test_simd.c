@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "../lib/block.h"
+#include "../lib/iteration.h"
 #include "../lib/network.h"
 #include "scene.h"
 
@@ -431,6 +432,58 @@ START_TEST(beside_the_sweep)
 }
 END_TEST
 
+/*
+ * Residuals [GC] 10 and forces of the law in long double, to rounding: the root of an overlap that is off by 2^-53, and three products;
+ * slopes of the chord to what one step of Halley's method is off, 2e-4 where forces differ by a quarter.  And the largest of them,
+ * wherever in a vector each is.
+ */
+START_TEST(residuals)
+{
+    enum { COUNT = 21 };
+    rng g = {39};
+    scene s;
+    stars(&s, &g, 1, COUNT, COUNT);
+    s.options.simd = _i;
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    nlc_network *n = s.network;
+    const nlc_variant *v = n->settings.variant;
+    const nlc_iteration q = {.n = n, .overlap = s.overlap, .normal = s.normal, .per_stiffness = 1, .load = 0.5};
+    for (int round = 0; round < 4 * COUNT && v; round++) {
+        double z[COUNT], inverse[COUNT], force[COUNT], top = 0, most = 0;
+        nlc_extremes found = {0, 0, false};
+        bool far = false;
+        for (int c = 0; c < COUNT; c++) {
+            const bool open = rng_below(&g, 4) == 0;
+            n->stiffness[c] = rng_uniform(&g, 1, 2);
+            s.overlap[c] = open ? -1 : rng_uniform(&g, 0.5, 1) * (c == round % COUNT ? 8 : 1);
+            n->current[c] = rng_uniform(&g, -0.1, 0.1);
+            n->floor[c] = 0.01;
+            n->force[c] = rng_uniform(&g, 0.1, 2); /* where it is open, far from its force */
+            if (round >= COUNT && (round < 2 * COUNT || !open)) n->force[c] = open ? 0 : 0.4;
+            if (round >= 3 * COUNT && c == round % COUNT) n->force[c] = -1;
+        }
+        int count = 0;
+        nlc_assert_quiet(count = v->residuals(&q, 0, COUNT, z, inverse, force, &found));
+        ck_assert(count > COUNT - 8 && count <= COUNT);
+        for (int c = 0; c < count; c++) {
+            const long double y = 0.5L * s.overlap[c] + n->current[c], law = y > 0 ? n->stiffness[c] * y * sqrtl(y) : 0;
+            nlc_assert_abs(force[c], (double)law, 1e-15 * (double)law);
+            nlc_assert_abs(z[c], (double)(law - n->force[c]), 1e-15 * (double)(law + fabsl(n->force[c])));
+            const long double f = n->force[c];
+            if (f > 0.8L * law && f < 1.25L * law && fabsl(f - law) > 1e-3L * law)
+                nlc_assert_rel(inverse[c], (double)((y - powl(f / n->stiffness[c], 2 / 3.L)) / (law - f)), 2e-4);
+            top = fmax(top, force[c]);
+            most = fmax(most, fabs(z[c]));
+            far |= n->force[c] < 0 || n->force[c] > NLC_FAR * force[c];
+        }
+        nlc_assert_same(found.force, top);
+        nlc_assert_same(found.residual, most);
+        ck_assert_int_eq(found.far, far);
+    }
+    scene_free(&s);
+}
+END_TEST
+
 START_TEST(choice)
 {
     ck_assert_ptr_null(nlc_choose_variant(NLC_SIMD_GENERIC));
@@ -462,6 +515,7 @@ int main(void)
     tcase_add_loop_test(t, prefactor, FIRST, LAST);
     tcase_add_loop_test(t, blocks, FIRST, LAST);
     tcase_add_loop_test(t, beside_the_sweep, FIRST, LAST);
+    tcase_add_loop_test(t, residuals, FIRST, LAST);
     time_limit(t, 60);
     suite_add_tcase(suite, t);
     return run_suite(suite);
