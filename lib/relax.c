@@ -110,7 +110,10 @@ static void relax(nlc_iteration *q)
     }
 }
 
-/* Contacts on two ranks get the mean of the forces that both have found for them. */
+/*
+ * Contacts on two ranks get the smaller one of the forces that both have found for them: a rank that has not the neighbour that pushes
+ * a contact open gives it all the force that it would have without, and half of that is as far from the solution.
+ */
 void nlc_relax(nlc_iteration *q)
 {
     nlc_network *n = q->n;
@@ -122,6 +125,7 @@ void nlc_relax(nlc_iteration *q)
     nlc_exchange_sides(n, n->side);
     for (int64_t s = 0; s < n->straddling; s++) {
         const int64_t c = nlc_straddling(n)[s];
-        n->force[c] = 0.5 * (n->side[2 * c] + n->side[2 * c + 1]);
+        const double a = n->side[2 * c], b = n->side[2 * c + 1];
+        n->force[c] = a < b ? a : b;
     }
 }
