@@ -410,6 +410,25 @@ START_TEST(only_what_moves_in_a_chain)
 }
 END_TEST
 
+/* Of one ball, where more contacts are open than not: from its own solution they are known to be, and left out at once. */
+START_TEST(what_is_open_is_left_out)
+{
+    scene s;
+    nlc_info info = {.struct_size = sizeof info};
+    scene_init(&s);
+    const int32_t p = scene_particle(&s, 1, scene_material(&s, 1e9, 0.3)), rigid = scene_material(&s, INFINITY, 0);
+    for (int k = 0; k < 4; k++) scene_contact(&s, p, 1 + scene_wall(&s, rigid), 0.01, (k == 0) - (k == 1), (k == 2) - (k == 3), 0);
+    for (int k = 0; k < 8; k++) scene_contact(&s, p, 1 + scene_wall(&s, rigid), -0.3, k % 2 ? 1 : -1, k / 2 % 2 ? 1 : -1, k / 4 ? 1 : -1);
+    ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+    for (int again = 0; again < 2; again++) {
+        ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+        ck_assert_int_eq(info.left_out, 8);
+        ck_assert_int_eq(info.active, 4);
+    }
+    scene_free(&s);
+}
+END_TEST
+
 /* One compressed pair among a thousand grains that nearly touch: nothing else is looked at. */
 START_TEST(what_cannot_move_is_left_out)
 {
@@ -556,6 +575,7 @@ static Suite *forces(void)
     tcase_add_loop_test(t, clusters_agree_with_long_double, 0, 12);
     tcase_add_loop_test(t, loose_scenes_agree_with_long_double, 0, 2);
     tcase_add_test(t, what_cannot_move_is_left_out);
+    tcase_add_test(t, what_is_open_is_left_out);
     tcase_add_test(t, only_what_moves);
     tcase_add_test(t, only_what_moves_in_a_chain);
     tcase_add_test(t, what_is_not_in_use);

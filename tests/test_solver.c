@@ -235,6 +235,48 @@ START_TEST(after_fixed_point)
 }
 END_TEST
 
+/*
+ * A ball between four walls that is pressed so much harder than in the step before that it comes to touch two more, which were left
+ * out: with every number of sweeps allowed, also where they are used up just when that is found, the status says whether it is solved.
+ */
+START_TEST(touches_with_the_last_sweep)
+{
+    scene s;
+    nlc_info info = {.struct_size = sizeof info};
+    long double solution[14];
+    int64_t needed = 0;
+    scene_init(&s);
+    s.options.tolerance = 1e-6;
+    const int32_t p = scene_particle(&s, 1, scene_material(&s, 1e9, 0.45)), rigid = scene_material(&s, INFINITY, 0);
+    for (int k = 0; k < 6; k++) {
+        const double n[3] = {(k == 0) - (k == 1), (k == 2) - (k == 3), (k == 4) - (k == 5)};
+        scene_contact(&s, p, 1 + scene_wall(&s, rigid), k < 4 ? 0.15 : -0.034, n[0], n[1], n[2]);
+    }
+    for (int k = 0; k < 8; k++) scene_contact(&s, p, 1 + scene_wall(&s, rigid), -1, k % 2 ? 1 : -1, k / 2 % 2 ? 1 : -1, k / 4 ? 1 : -1);
+    scene_oracle(&s, 1, solution);
+    ck_assert(solution[4] > 0.01L * solution[0]);
+    for (int64_t most = 30; most > 0; most--) {
+        s.options.max_sweeps = most;
+        s.network = 0;
+        ck_assert_int_eq(scene_build(&s), NLC_OK);
+        for (int step = 0; step < 2; step++) {
+            for (int k = 0; k < 4; k++) s.overlap[k] = step ? 0.15 : 1e-3;
+            const nlc_status status = scene_solve(&s, &info);
+            ck_assert_int_le(info.sweeps, most);
+            if (step == 0) continue;
+            const double error = scene_error(&s, s.force, solution);
+            if (verbose()) printf("%d sweeps allowed: %d done, status %d, error %.1e\n", (int)most, (int)info.sweeps, status, error);
+            if (status == NLC_OK) ck_assert(error <= 1e-6);
+            else ck_assert(status == NLC_WARNING_NOT_CONVERGED && most < needed && info.sweeps == most);
+            for (int64_t c = 0; c < s.contacts; c++) ck_assert(isfinite(s.force[c]) && s.force[c] >= 0);
+            if (most == 30) needed = info.sweeps;
+        }
+    }
+    ck_assert_int_gt(needed, 4);
+    scene_free(&s);
+}
+END_TEST
+
 /* ---- starts that are the solution already */
 
 static const int simds[] = {NLC_SIMD_GENERIC, NLC_SIMD_BEST};
@@ -553,6 +595,7 @@ int main(void)
     tcase_add_test(t, loose_at_first_sight);
     tcase_add_test(t, limits_of_mixed_models);
     tcase_add_test(t, after_fixed_point);
+    tcase_add_test(t, touches_with_the_last_sweep);
     tcase_add_test(t, idle_candidates_in_one_place);
     tcase_add_loop_test(t, soft_and_open, 0, 2);
     tcase_add_test(t, nothing_to_start_from);
