@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../lib/iteration.h"
 #include "stress.h"
 
 /* Solves with the overlaps times load from the nonlocal displacements there are, and compares with e, which is there. */
@@ -512,6 +513,34 @@ START_TEST(slow_compression)
 }
 END_TEST
 
+/* Where the load is applied in steps, an iteration begins from the forces of that part of the overlaps: of Hertz, with no displacements. */
+START_TEST(part_of_the_load)
+{
+    rng g = {10};
+    scene s;
+    nlc_iteration q;
+    scene_init(&s);
+    scene_cluster(&s, &g, 9, 0.6);
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    nlc_network *n = s.network;
+    for (int step = 1; step <= 16; step++) {
+        n->swept = false;
+        n->top = (nlc_tops){-1, -1, -1};
+        for (int64_t c = 0; c < s.contacts; c++) n->current[c] = 0;
+        nlc_iteration_start(&q, n, s.overlap, s.normal, step / 16.);
+        for (int64_t c = 0; c < s.contacts; c++) { /* units are powers of 2; a root and three products, twice */
+            const double unit = q.per_stiffness * q.per_overlap * sqrt(q.per_overlap);
+            nlc_assert_rel(n->force[c], unit * nlc_hertz_force((double)scene_stiffness(&s, c), step / 16. * s.overlap[c]), 4e-15);
+        }
+        for (int64_t c = 0; c < s.contacts; c++) n->current[c] = 2 * NLC_FARTHEST; /* which is cut to what may be, with that part applied */
+        nlc_iteration_end(&q);
+        for (int64_t c = 0; c < s.contacts; c++)
+            nlc_assert_rel(n->current[c] + step / 16. * s.overlap[c], NLC_FARTHEST / q.per_overlap, 1e-15);
+    }
+    scene_free(&s);
+}
+END_TEST
+
 /* [GC] Algorithm 1 runs away from a start far off, and goes on from zeros. */
 START_TEST(start_far_off)
 {
@@ -592,6 +621,7 @@ int main(void)
     tcase_add_test(t, nearly_one_place);
     tcase_add_test(t, slow_compression);
     tcase_add_test(t, start_far_off);
+    tcase_add_test(t, part_of_the_load);
     tcase_add_test(t, loose_at_first_sight);
     tcase_add_test(t, limits_of_mixed_models);
     tcase_add_test(t, after_fixed_point);
