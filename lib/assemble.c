@@ -60,7 +60,7 @@ nlc_status nlc_assemble(const nlc_network *network, double *NLC_RESTRICT F, ptrd
     if (!nlc_network_is_valid(network)) return nlc_error(info, NLC_ERROR_NETWORK, -1);
     const int64_t count = network->contact_count, particles = network->particle_count;
     if (count == 0) return nlc_error(info, NLC_OK, -1);
-    if (particles > 0 && !F) return nlc_error(info, NLC_ERROR_NULL, 1);
+    if (!F) return nlc_error(info, NLC_ERROR_NULL, 1); /* a contact has a particle */
     if (!force) return nlc_error(info, NLC_ERROR_NULL, 4);
     if (!normal) return nlc_error(info, NLC_ERROR_NULL, 5);
     if (!nlc_read_stride(&F_stride, particles)) return nlc_error(info, NLC_ERROR_STRIDE, 2);

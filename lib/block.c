@@ -165,7 +165,6 @@ static double lanczos(nlc_network *n, const double *normal, int64_t k, double lo
         norm += v[e >> 1] * v[e >> 1];
         w[e >> 1] = 0;
     }
-    if (norm <= 0) return 0;
     EACH_CONTACT(e) v[e >> 1] /= sqrt(norm);
     for (int m = 0; m < LANCZOS_MAX; m++) { /* v is the present vector, w the one before */
         double *out = in, along = 0, rest = 0;

@@ -40,7 +40,7 @@ static void find_residual(nlc_network *n, const double *force, const double *ove
         const double a = n->largest[n->i[c]], b = n->largest[n->j[c]], scale = (a > b ? a : b) * per_force;
         const double law = nlc_hertz_force(n->stiffness[c], (gamma + g) / per_overlap);
         const double size = fabs((law < most ? law : most) * per_force - p);
-        const double ratio = nlc_is_finite(size) ? nlc_ratio(size, scale) : 1e10;
+        const double ratio = nlc_ratio(size, scale);
         if (ratio <= s->residual) continue;
         s->residual = ratio;
         s->worst = c;

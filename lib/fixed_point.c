@@ -56,7 +56,7 @@ static void update_forces(nlc_network *n, const double *overlap, double cap, sta
         scale = p > scale ? p : scale;
         n->force[c] = p;
         s->highest = x > s->highest ? x : s->highest;
-        if (change > s->change * scale && scale > 0) {
+        if (change > s->change * scale) { /* no scale is 0 where something changes */
             s->change = change / (scale + DBL_MIN); /* at most 1; no condition on the division, see nlc_ratio */
             s->worst = c;
         }
@@ -139,8 +139,8 @@ void nlc_fixed_point(nlc_network *n, const double *overlap, const double *normal
         }
         keep_displacements(n, overlap, runaway);
         if (error <= n->settings.tolerance) return finish(out, NLC_OK, error, s.worst);
-        if (s.change <= ROUNDING && s.change >= s.smallest) return finish(out, NLC_WARNING_ROUNDING, error, s.worst);
-        if (s.highest >= runaway && runaway > 0) break;
+        if (s.change <= ROUNDING) return finish(out, NLC_WARNING_ROUNDING, error, s.worst);
+        if (s.highest >= runaway) break;
     }
     if (s.change > s.smallest) copy_displacements(n, n->current, n->spare[0]);
     finish(out, NLC_WARNING_NOT_CONVERGED, s.smallest, s.worst);

@@ -161,7 +161,7 @@ nlc_status nlc_assemble_turning(const nlc_network *network, double *NLC_RESTRICT
     if (!model->potential) return nlc_error(info, NLC_ERROR_NO_POTENTIAL, network->settings.number);
     const int64_t count = network->contact_count, particles = network->particle_count;
     if (count == 0) return nlc_error(info, NLC_OK, -1);
-    if (particles > 0 && !F) return nlc_error(info, NLC_ERROR_NULL, 1);
+    if (!F) return nlc_error(info, NLC_ERROR_NULL, 1); /* a contact has a particle */
     if (!force) return nlc_error(info, NLC_ERROR_NULL, 3);
     if (!overlap) return nlc_error(info, NLC_ERROR_NULL, 4);
     if (!normal) return nlc_error(info, NLC_ERROR_NULL, 5);

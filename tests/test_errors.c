@@ -366,6 +366,102 @@ START_TEST(arrays_over_contacts)
 }
 END_TEST
 
+/* Of many contacts the first bad one is named, and the largest number counts, whatever part of the list they are in. */
+START_TEST(long_lists)
+{
+    enum { COUNT = 20000 };
+    static const int64_t places[] = {0, 5, 8191, 8192, 12000, 16384, COUNT - 1};
+    scene s;
+    nlc_info info = {.struct_size = sizeof info};
+    scene_init(&s);
+    const int32_t m = scene_material(&s, 1e9, 0.3);
+    for (int k = 0; k <= COUNT; k++) scene_particle(&s, 1, m);
+    for (int k = 0; k < COUNT; k++) scene_contact(&s, k, k + 1, 1e-3, 1, 0, 0);
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    for (int p = 0; p < 7; p++)
+        for (int later = p; later < 7; later++) {
+            const int64_t c = places[p], d = places[later];
+            s.normal[3 * c] = s.normal[3 * d] = 2;
+            nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, &info), NLC_ERROR_NORMAL));
+            ck_assert_int_eq(info.culprit, c);
+            s.normal[3 * c] = s.normal[3 * d] = 1;
+            s.overlap[c] = NAN, s.overlap[d] = INFINITY;
+            nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, &info), NLC_ERROR_OVERLAP));
+            ck_assert_int_eq(info.culprit, c);
+            s.overlap[c] = -1e300, s.overlap[d] = 1e-3;
+            if (c != d) nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, &info), NLC_ERROR_RANGE));
+            s.overlap[c] = 1e-3;
+        }
+    scene_free(&s);
+}
+END_TEST
+
+/* A state from the last step, and then two contacts of one particle come to lie in one direction: in a scene of any size. */
+START_TEST(same_direction_in_the_next_step)
+{
+    for (int count = 10; count < 1000; count *= 3) {
+        scene s;
+        nlc_info info = {.struct_size = sizeof info};
+        scene_init(&s);
+        const int32_t m = scene_material(&s, 1e9, 0.3);
+        for (int k = 0; k <= count; k++) scene_particle(&s, 1, m);
+        for (int k = 0; k < count; k++) scene_contact(&s, k, k + 1, 1e-2, 1, 0, 0);
+        ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+        s.normal[3 * (count / 2)] = -1; /* the particle's neighbours are both on its left */
+        nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, &info), NLC_ERROR_COINCIDENT));
+        ck_assert(info.culprit == count / 2 || info.culprit == count / 2 + 1);
+        double change[1000];
+        nlc_assert_quiet(ck_assert_int_eq(nlc_tangent(s.network, change, s.overlap, s.force, s.normal, &info), NLC_ERROR_COINCIDENT));
+        nlc_assert_quiet(ck_assert_int_eq(nlc_tangent_inverse(s.network, change, s.force, s.force, s.normal, &info), NLC_ERROR_COINCIDENT));
+        scene_free(&s);
+    }
+}
+END_TEST
+
+/* Forces and stiffnesses at the end of double, on bodies that hardly yield: what cannot be calculated with is refused. */
+START_TEST(stiffest_and_softest)
+{
+    double stiffness[2] = {1.7e308, 1.7e308}, force[2] = {1.7e308, 1.7e308}, overlap[2] = {1e-3, 1e-3}, out[2] = {7, 7}, energy = 7;
+    scene s;
+    nlc_info info = {.struct_size = sizeof info};
+    scene_init(&s);
+    s.options.stiffness = stiffness;
+    const int32_t m = scene_material(&s, 1e300, 0.3);
+    for (int k = 0; k < 4; k++) scene_particle(&s, 1, m);
+    scene_contact(&s, 0, 1, 1e-3, 1, 0, 0);
+    scene_contact(&s, 2, 3, 1e-3, 1, 0, 0);
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    nlc_assert_quiet(ck_assert_int_eq(nlc_tangent(s.network, out, overlap, force, s.normal, &info), NLC_ERROR_RANGE));
+    nlc_assert_quiet(ck_assert_int_eq(nlc_energy(s.network, &energy, force, overlap, s.normal, &info), NLC_ERROR_RANGE));
+    ck_assert(out[0] == 7 && out[1] == 7 && energy == 7);
+
+    /* two pairs, one of them too soft beside the other to be seen: dP = 3/2 k (P/k)^(1/3) dx, and nothing */
+    stiffness[0] = 1e9, stiffness[1] = 1e-200;
+    force[0] = 3e4, force[1] = 3e-209;
+    ck_assert_int_eq(nlc_set_options(s.network, &s.options, &info), NLC_OK);
+    nlc_assert_quiet(ck_assert_int_eq(nlc_tangent(s.network, out, overlap, force, s.normal, &info), NLC_OK));
+    nlc_assert_rel(out[0], 1.5e9 * cbrt(3e4 / 1e9) * 1e-3, 1e-14);
+    ck_assert(out[1] >= 0 && out[1] < 1e-190);
+
+    /* Hertz's stiffness is beyond double, which does not matter as long as others are given */
+    scene_free(&s);
+    scene_init(&s);
+    stiffness[0] = stiffness[1] = 1;
+    s.options.stiffness = stiffness;
+    const int32_t hard = scene_material(&s, 1e300, 0.3), rigid = scene_material(&s, INFINITY, 0.3);
+    scene_particle(&s, 1, hard);
+    scene_particle(&s, 1e20, rigid);
+    const int32_t wall = 2 + scene_wall(&s, hard);
+    scene_contact(&s, 0, wall, 1e-3, 1, 0, 0);
+    scene_contact(&s, 1, wall, 1e-3, 1, 0, 0);
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    s.options.stiffness = NULL;
+    nlc_assert_quiet(ck_assert_int_eq(nlc_set_options(s.network, &s.options, &info), NLC_ERROR_RANGE));
+    ck_assert_int_eq(info.culprit, 1);
+    scene_free(&s);
+}
+END_TEST
+
 START_TEST(same_direction_and_range)
 {
     memcpy(f.s.normal + 3, (const double[]){-1, 0, 0}, 3 * sizeof(double)); /* on particle 1: contacts 0 and 1 */
@@ -656,6 +752,7 @@ START_TEST(hosts)
     WITH_BOTH(h.positions.struct_size, 1u << 20, NLC_ERROR_STRUCT_SIZE, 3, 5);
     WITH_BOTH(h.particles.count, -1, NLC_ERROR_COUNT, 2, 4);
     WITH_BOTH(h.particles.count, (int64_t)INT32_MAX, NLC_ERROR_COUNT, 2, 4);
+    WITH_BOTH(h.particles.count, (int64_t)INT32_MAX + 1, NLC_ERROR_COUNT, 2, 4);
     WITH_BOTH(h.particles.wall_count, -1, NLC_ERROR_COUNT, 2, 4);
     WITH_FIELD(h.particles.radius, 0, NLC_ERROR_NULL_FIELD, nlc_particles, radius);
     WITH_FIELD(h.positions.x, 0, NLC_ERROR_NULL_FIELD, nlc_positions, x);
@@ -684,6 +781,7 @@ START_TEST(hosts)
     WITH_BOTH(h.positions.cell, ((double[9]){9, 0, 0, 0, 9, 0, 5, 0, 4.25}), NLC_ERROR_CELL, 1, 1); /* 0 and 1: 4.2 */
     WITH_BOTH(h.positions.cell, ((double[9]){1e-300}), NLC_ERROR_RANGE, 0, 0);
     for (int32_t bad = -1; bad < 12; bad += 6) WITH_HOST(h.i[1], bad, pairs(), NLC_ERROR_INDEX, 1);
+    for (int32_t bad = -1; bad < 12; bad += 6) WITH_HOST(h.j[1], bad, pairs(), NLC_ERROR_INDEX, 1);
     WITH_HOST(h.j[2], 4, pairs(), NLC_ERROR_WALL_WALL, 2);
     h.x[0] = -1.7e308;
     WITH_HOST(h.x[1], 1.7e308, pairs(), NLC_ERROR_RANGE, 0);
@@ -703,6 +801,9 @@ START_TEST(hosts_arguments)
         demand(nlc_contacts_from_pairs(k == 0 ? none : h.overlap, k == 1 ? none : h.out, k == 2 ? 0 : &h.particles,
                                        k == 3 ? 0 : &h.positions, k == 4 ? 0 : h.i, k == 5 ? 0 : h.j, 3, &f.info), NLC_ERROR_NULL, k);
     demand(nlc_contacts_from_pairs(h.overlap, h.out, &h.particles, &h.positions, h.i, h.j, -1, &f.info), NLC_ERROR_COUNT, 6);
+    demand(nlc_contacts_from_pairs(0, 0, 0, &h.positions, 0, 0, 0, &f.info), NLC_ERROR_NULL, 2);
+    demand(nlc_contacts_from_pairs(0, 0, &h.particles, 0, 0, 0, 0, &f.info), NLC_ERROR_NULL, 3);
+    ck_assert_int_eq(nlc_contacts_from_pairs(0, 0, &h.particles, &h.positions, 0, 0, 0, &f.info), NLC_OK); /* nothing is asked */
     for (int k = 0; k < 7; k++)
         if (k != 3)
             demand(nlc_contacts_from_lists(k == 0 ? 0 : &h.count, k == 1 ? 0 : h.found_i, k == 2 ? 0 : h.found_j, 9,
@@ -731,6 +832,8 @@ START_TEST(hosts_arguments)
     demand(nlc_reach(f.s.network, 0, h.b, f.force, &f.info), NLC_ERROR_NULL, 1);
     demand(nlc_reach(f.s.network, &h.reach, h.b, 0, &f.info), NLC_ERROR_NULL, 3);
     demand(nlc_reach((nlc_network *)not_a_network, &h.reach, h.b, f.force, &f.info), NLC_ERROR_NETWORK, -1);
+    void *const askew = (char *)not_a_network + 4;
+    demand(nlc_reach(askew, &h.reach, h.b, f.force, &f.info), NLC_ERROR_NETWORK, -1);
     const double bad[] = {NAN, INFINITY, -1};
     for (int b = 0; b < 3; b++) WITH_HOST(f.force[2], bad[b], nlc_reach(f.s.network, &h.reach, h.b, f.force, &f.info), NLC_ERROR_FORCE, 2);
     f.s.rows[0].young = 1e-10;
@@ -951,6 +1054,9 @@ int main(void)
     tcase_add_test(t, options);
     tcase_add_test(t, struct_sizes);
     tcase_add_test(t, arrays_over_contacts);
+    tcase_add_test(t, long_lists);
+    tcase_add_test(t, same_direction_in_the_next_step);
+    tcase_add_test(t, stiffest_and_softest);
     tcase_add_test(t, same_direction_and_range);
     tcase_add_test(t, energy_and_tangent);
     tcase_add_test(t, models);

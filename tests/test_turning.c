@@ -147,6 +147,8 @@ START_TEST(what_is_refused)
     ck_assert_int_eq(info.culprit, what); \
     for (int k = 0; k < SPHERES; k++) ck_assert(F[k][0] == 0 && F[k][1] == 0 && F[k][2] == 0)
     REFUSED(nlc_assemble_turning(NULL, F[0], 0, s.force, s.overlap, s.normal, &info), NLC_ERROR_NULL, 0);
+    uint64_t not_a_network[40] = {0};
+    REFUSED(nlc_assemble_turning((nlc_network *)not_a_network, F[0], 0, s.force, s.overlap, s.normal, &info), NLC_ERROR_NETWORK, -1);
     REFUSED(nlc_assemble_turning(n, NULL, 0, s.force, s.overlap, s.normal, &info), NLC_ERROR_NULL, 1);
     REFUSED(nlc_assemble_turning(n, F[0], 0, NULL, s.overlap, s.normal, &info), NLC_ERROR_NULL, 3);
     REFUSED(nlc_assemble_turning(n, F[0], 0, s.force, NULL, s.normal, &info), NLC_ERROR_NULL, 4);
