@@ -525,7 +525,7 @@ START_TEST(part_of_the_load)
     nlc_network *n = s.network;
     for (int step = 1; step <= 16; step++) {
         n->swept = false;
-        n->top = (nlc_tops){-1, -1, -1};
+        n->top = (nlc_tops){-1, -1, -1, -1};
         for (int64_t c = 0; c < s.contacts; c++) n->current[c] = 0;
         nlc_iteration_start(&q, n, s.overlap, s.normal, step / 16.);
         for (int64_t c = 0; c < s.contacts; c++) { /* units are powers of 2; a root and three products, twice */
