@@ -49,6 +49,7 @@ PREFIX_MAP = -ffile-prefix-map=$(CURDIR)=. -ffile-prefix-map=$(S)/lib=lib -ffile
 LIB_CFLAGS = -std=c11 $(WARNINGS) -fPIC -fvisibility=hidden -ffp-contract=off -fno-math-errno $(PREFIX_MAP) $(CFLAGS)
 DEPFLAGS = -MMD -MP
 LIBS := -lm
+comma := ,
 # The shared library is linked with all it needs; sanitized ones get it from the program.
 NO_UNDEFINED ?= -Wl,-z,defs
 
@@ -99,7 +100,7 @@ $(B)/%.cmake: $(S)/%.cmake.in FORCE
 # ---- programs on a packing, and on single spheres
 BENCH_SRC := $(sort $(wildcard $(S)/bench/*.c))
 BENCH_MAIN := $(filter %/packing.c %/bench.c %/steps.c %/roofline.c %/accuracy.c \
-	%/coordination.c %/functions.c %/tradeoff.c %/scale.c %/instructions.c %/energy.c,$(BENCH_SRC))
+	%/coordination.c %/functions.c %/tradeoff.c %/scale.c %/instructions.c %/energy.c %/skipping.c %/kept.c,$(BENCH_SRC))
 BENCH_COMMON := $(patsubst $(S)/%.c,$(B)/%.o,$(filter-out $(BENCH_MAIN),$(BENCH_SRC)))
 
 $(B)/bench/%.o: $(S)/bench/%.c
@@ -108,6 +109,8 @@ $(B)/bench/%.o: $(S)/bench/%.c
 $(B)/bench/%: $(B)/bench/%.o $(BENCH_COMMON) $(STATIC)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
 
+$(B)/bench/skipping: LIBS += $(patsubst %,-Wl$(comma)--wrap=nlc_%,is_loose is_solved settle_region solve_clusters)
+
 packing: $(B)/bench/packing ## build bench/packing, the same for a packing of your own
 demo: $(B)/bench/packing ## a real packing: forces with and without the coupling, a table, a picture, a ParaView file
 	@$(B)/bench/packing --svg $(B)/demo.svg --vtk $(B)/demo.vtk $(S)/bench/data/b_die125_rd0.80.csv
@@ -115,7 +118,7 @@ PACKING ?= $(S)/bench/data/a_mono1000_periodic.csv
 RESULTS ?= $(B)/results
 TRADEOFF_PACKINGS = $(sort $(S)/bench/data/b_die125_rd0.80.csv $(S)/bench/data/a_mono1000_periodic.csv \
 	$(S)/bench/data/c_hydrogel514_strain13.csv $(PACKING))
-bench: $(addprefix $(B)/bench/,bench roofline steps functions tradeoff scale) ## time the library against Algorithm 1 as printed; PACKING=file for a packing of your own
+bench: $(addprefix $(B)/bench/,bench roofline steps functions tradeoff skipping kept scale) ## time the library against Algorithm 1 as printed; PACKING=file for a packing of your own
 	@mkdir -p $(RESULTS)
 	@$(B)/bench/bench $(PACKING) ordered:$(PACKING)
 	@$(B)/bench/bench --csv $(PACKING) ordered:$(PACKING) >$(RESULTS)/bench.csv
@@ -123,6 +126,8 @@ bench: $(addprefix $(B)/bench/,bench roofline steps functions tradeoff scale) ##
 	@$(B)/bench/steps $(PACKING)
 	@$(B)/bench/functions --csv $(RESULTS)/functions.csv $(PACKING)
 	@$(B)/bench/tradeoff --csv $(RESULTS)/tradeoff.csv $(TRADEOFF_PACKINGS)
+	@$(B)/bench/kept $(PACKING)
+	@$(B)/bench/skipping --csv $(RESULTS)/skipping.csv $(PACKING)
 	@$(B)/bench/scale --csv $(RESULTS)/scale.csv
 bench-large: $(B)/bench/tradeoff $(B)/bench/scale ## the same on ten million contacts; some 20 minutes and 4 GB
 	@mkdir -p $(RESULTS)
@@ -219,7 +224,7 @@ $(B)/tests/%.o: $(S)/tests/%.c
 $(B)/tests/%: $(B)/tests/%.o $(TEST_COMMON) $(BENCH_COMMON) $(STATIC)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -pthread -o $@ $^ $(CHECK_LIBS) $(LIBS)
 
-check: lib packing $(FIGURES) $(BEDS) $(HYDROGEL) $(TESTS) $(addprefix $(B)/bench/,accuracy functions tradeoff scale instructions energy) ## build and run every test (needs what `make setup` installs)
+check: lib packing $(FIGURES) $(BEDS) $(HYDROGEL) $(TESTS) $(addprefix $(B)/bench/,accuracy functions tradeoff skipping kept scale instructions energy) ## build and run every test (needs what `make setup` installs)
 	@S='$(abspath $(S))' B='$(abspath $(B))' CC='$(CC)' CXX='$(CXX)' FC='$(FC)' MAKE='$(MAKE)' EMULATOR='$(EMULATOR)' \
 		PKG_CONFIG='$(PKG_CONFIG)' VERSION='$(VERSION)' sh $(S)/tests/run $(abspath $(TESTS) $(TEST_SCRIPTS))
 

@@ -23,6 +23,15 @@ done
 grep -q '^-,0,0,nlc_sphere_green latency,ns/call,3,' "$tmp/functions.csv" || fail "no latency"
 grep -q '^lattice:3,108,648,nlc_carry,ns,3,' "$tmp/functions.csv" || fail "108 spheres with twelve neighbours each"
 
+run kept lattice:4
+grep -qE '^loop, kept in 32 bits +[0-9.]+ +[0-9.]+$' "$tmp/out" || fail "kept"
+
+# What is skipped changes no force by more than the tolerance, and something is skipped.
+run skipping --csv "$tmp/skipping.csv" lattice:4
+awk -F, 'NR > 1 { if ($12 > 1e-6) { print "skipping: beyond the tolerance: " $0; failed = 1 } n++; sweeps[$4] = $11 }
+    END { if (n != 8 || !(sweeps["Hertz on"] < sweeps["Hertz off"])) { print "skipping: " n " rows"; failed = 1 } exit failed }' \
+    "$tmp/skipping.csv" || fail "skipping"
+
 # Run time against error: forces within the tolerance, whatever the method, the start and the history; Hertz and lagged sweeps
 # are as wrong as is known (README).  Algorithm 1 promises nothing; the factor is what its change leaves open.
 run tradeoff --quick --csv "$tmp/tradeoff.csv" "$S/bench/data/b_die125_rd0.80.csv" \
