@@ -13,7 +13,8 @@
  * again by the portable code, which knows what is too close: here t needs neither a test nor care for its range.  One with more
  * contacts than a block holds is left to it, too.
  *
- * Contacts are read one by one: instructions that gather are not faster, and on many processors they are much slower.
+ * Directions are read one by one and turned from rows to columns in registers (set_directions): what goes through memory as columns
+ * takes three times as many instructions, and instructions that gather are not faster.
  *
  * Measured against long double: displacements are wrong by at most Z 2^-53 times the sum of the absolute terms, Z contacts.
  *
@@ -25,6 +26,7 @@
  * the type vec: LANES doubles; and
  *     set, load, store, loadu, storeu, add, sub, mul, div, root, min, max; muladd: ab + c; nmuladd: c - ab, both rounded once
  *     estimate: 1/sqrt(t) for 2^-101 < t < 2^15
+ *     set_directions: x, y, z [LANES] from the rows v [LANES], those reversed that have a bit in reversed
  * The memory of load and store is aligned to whole vectors, that of loadu and storeu to doubles.
  */
 #include "crowd.h"
@@ -37,14 +39,16 @@
 /* What is known of one contact of each of the particles. */
 typedef struct place {
     _Alignas(8 * LANES) double x[LANES], y[LANES], z[LANES]; /* outward unit normal */
-    double force[LANES];                                     /* times U */
+    double force[LANES];                                     /* times U, from where it has been met on */
     double weight[LANES];                                    /* where it is asked for */
     double displacement[LANES];
 } place;
 
 typedef struct group {
     place at[NLC_BLOCK];
-    int64_t places, particle[LANES], begin[LANES], count[LANES]; /* of the particles' lists; places: the largest count */
+    int64_t particle[LANES], begin[LANES], count[LANES]; /* of the particles' lists */
+    const int64_t *list[LANES];
+    int64_t places, all; /* the largest count and the least */
     _Alignas(8 * LANES) double scale[LANES], c0[LANES], c1[LANES], c2[LANES];
     double largest[LANES], closest[LANES], squares[LANES]; /* |force|; squared distance; see variant.h */
 } group;
@@ -53,13 +57,16 @@ typedef struct group {
 static void choose(group *g, const nlc_network *n, const int32_t *particle, int count)
 {
     g->places = 0;
+    g->all = NLC_BLOCK;
     for (int l = 0; l < LANES; l++) {
         const int64_t k = particle[l < count ? l : count - 1];
         const nlc_kernel *kernel = nlc_kernel_of(n, k);
         g->particle[l] = k;
         g->begin[l] = n->start[k];
         g->count[l] = n->start[k + 1] - n->start[k];
+        g->list[l] = n->entry + g->begin[l];
         g->places = g->count[l] > g->places ? g->count[l] : g->places;
+        g->all = g->count[l] < g->all ? g->count[l] : g->all;
         g->scale[l] = nlc_scale_of(n, k);
         g->c0[l] = kernel->c[0];
         g->c1[l] = kernel->c[1];
@@ -67,22 +74,12 @@ static void choose(group *g, const nlc_network *n, const int32_t *particle, int 
     }
 }
 
-static void set_direction(place *at, int l, const double *normal, int64_t e)
+/* Where the particle of a lane has no further contact there is one without force. */
+static const double *nowhere(double row[3], int64_t d)
 {
-    const uint64_t sign = (uint64_t)e << 63;
-    const double *v = normal + 3 * (e >> 1);
-    at->x[l] = nlc_from_bits(nlc_bits(v[0]) ^ sign);
-    at->y[l] = nlc_from_bits(nlc_bits(v[1]) ^ sign);
-    at->z[l] = nlc_from_bits(nlc_bits(v[2]) ^ sign);
-}
-
-/* The lane's list is done: from here on there are contacts without force. */
-static void fill_up(group *g, int l)
-{
-    for (int64_t d = g->count[l]; d < g->places; d++) {
-        g->at[d].x[l] = 2 + 2 * (double)d;
-        g->at[d].y[l] = g->at[d].z[l] = g->at[d].force[l] = g->at[d].weight[l] = 0;
-    }
+    row[0] = 2 + 2 * (double)d;
+    row[1] = row[2] = 0;
+    return row;
 }
 
 /* What a group does about its coefficients. */
@@ -96,21 +93,36 @@ static int64_t room_for(int64_t places)
     return LANES * places * (places - 1) / 2;
 }
 
-static void fill_lane(group *g, int l, const nlc_network *n, const double *force, const double *weighed, const double *normal, bool known)
+/* One place; plain: each lane has a contact there, and no contact is one of a particle with itself. */
+__attribute__((always_inline)) TARGET static inline void fill_place(group *g, const nlc_network *n, const double *force, int64_t stride,
+                                                                    const double *normal, bool known, int64_t d, bool plain)
 {
-    const double scale = g->scale[l];
-    double largest = 0;
-    for (int64_t d = 0; d < g->count[l]; d++) {
-        place *at = &g->at[d];
-        const int64_t e = nlc_side_at(n, normal, g->begin[l] + d), c = e >> 1;
-        const double f = weighed ? weighed[2 * c] : force[c], p = fabs(f);
-        if (!known) set_direction(at, l, normal, e);
-        at->force[l] = scale * f;
-        at->weight[l] = weighed ? weighed[2 * c + 1] : 0;
-        largest = p > largest ? p : largest;
+    place *at = &g->at[d];
+    double none[3];
+    const double *v[LANES];
+    unsigned reversed = 0;
+#pragma GCC unroll 8
+    for (int l = 0; l < LANES; l++) {
+        if (!plain) {
+            at->force[l] = at->weight[l] = 0;
+            v[l] = nowhere(none, d);
+            if (d >= g->count[l]) continue;
+        }
+        const int64_t e = plain ? g->list[l][d] : nlc_side_at(n, normal, g->begin[l] + d), c = e >> 1;
+        v[l] = normal + 3 * c;
+        reversed |= (unsigned)(e & 1) << l;
+        at->force[l] = force[stride * c];
+        if (stride == 2) at->weight[l] = force[2 * c + 1];
     }
-    g->largest[l] = largest;
-    fill_up(g, l);
+    if (!known) set_directions(at->x, at->y, at->z, v, reversed);
+}
+
+/* The contacts, place by place; forces are not yet times U.  stride 2: a weight stands behind each of them. */
+TARGET static void fill(group *g, const nlc_network *n, const double *force, int64_t stride, const double *normal, bool known)
+{
+    const int64_t plain = n->self_contacts ? 0 : g->all;
+    for (int64_t d = 0; d < plain; d++) fill_place(g, n, force, stride, normal, known, d, true);
+    for (int64_t d = plain; d < g->places; d++) fill_place(g, n, force, stride, normal, known, d, false);
 }
 
 /*
@@ -155,12 +167,14 @@ TARGET static inline vec squared_distance(vec x, vec y, vec z, const place *b)
 __attribute__((always_inline)) TARGET static inline void couple(group *g, const nlc_network *n, const double *from, int64_t stride,
                                                                 const double *normal, const int32_t *next, double *kept, bool known)
 {
-    const vec c0 = load(g->c0), c1 = load(g->c1), c2 = load(g->c2);
-    vec closest = set(4), squares = set(0);
+    const vec c0 = load(g->c0), c1 = load(g->c1), c2 = load(g->c2), scale = load(g->scale);
+    vec closest = set(4), squares = set(0), largest = set(0);
     for (int64_t c = 0; c < g->places; c++) {
         place *a = &g->at[c];
-        const vec x = load(a->x), y = load(a->y), z = load(a->z), force = load(a->force);
+        const vec x = load(a->x), y = load(a->y), z = load(a->z), given = load(a->force), force = mul(given, scale);
         vec sum = set(0), weight = set(0);
+        largest = max(largest, max(given, sub(set(0), given)));
+        store(a->force, force);
         if (next) fetch(n, from, stride, normal, next, c);
         for (place *b = g->at; b < a; b++) {
             vec k;
@@ -182,6 +196,7 @@ __attribute__((always_inline)) TARGET static inline void couple(group *g, const 
     }
     if (!known) store(g->closest, closest);
     store(g->squares, squares);
+    store(g->largest, largest);
 }
 
 /* To the portable code; false: two directions are the same. */
@@ -208,13 +223,22 @@ TARGET static void couple_known(group *g, const nlc_network *n, const double *fo
     couple(g, n, force, 1, normal, next, kept, true);
 }
 
+static inline void hand_out(const group *g, nlc_network *n, const double *normal, int l)
+{
+    const int64_t *list = g->list[l], plain = n->self_contacts ? 0 : g->count[l];
+    double *side = n->side;
+#pragma GCC unroll 4
+    for (int64_t d = 0; d < plain; d++) side[list[d]] = g->at[d].displacement[l];
+    for (int64_t d = plain; d < g->count[l]; d++) side[nlc_side_at(n, normal, g->begin[l] + d)] = g->at[d].displacement[l];
+}
+
 /* Hands the results out; returns the first particle with two contacts in the same direction, or -1. */
 static int64_t empty(const group *g, nlc_network *n, const double *force, const double *normal, bool known)
 {
     int64_t bad = -1;
     for (int l = 0; l < LANES; l++) {
         const int64_t k = g->particle[l];
-        for (int64_t d = 0; d < g->count[l]; d++) n->side[nlc_side_at(n, normal, g->begin[l] + d)] = g->at[d].displacement[l];
+        hand_out(g, n, normal, l);
         n->largest[k] = g->largest[l];
         if (!known) n->closest[k] = g->closest[l];
         n->norm[k] = g->squares[l];
@@ -266,7 +290,9 @@ static int64_t displace_window(nlc_network *n, const double *force, const double
         const int32_t *next = n->contact_count > FAR && q + 2 * LANES <= all ? sorted + q + LANES : NULL;
         choose(&g, n, sorted + q, count - q);
         const keeping kept = keep(n, &at, g.places, weighed);
-        for (int l = 0; l < LANES; l++) fill_lane(&g, l, n, force, weighed, normal, kept.known);
+        if (weighed) fill(&g, n, weighed, 2, normal, false);
+        else if (kept.known) fill(&g, n, force, 1, normal, true);
+        else fill(&g, n, force, 1, normal, false);
         if (weighed)
             couple_weighed(&g, n, weighed, normal, next, kept.at);
         else if (kept.known)

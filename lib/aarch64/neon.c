@@ -33,5 +33,15 @@ static inline vec estimate(vec t)
     return vmulq_f64(y, vrsqrtsq_f64(vmulq_f64(t, y), y));
 }
 
+static inline void set_directions(double *x, double *y, double *z, const double *const *v, unsigned reversed)
+{
+    const uint64x2_t sign = {(uint64_t)(reversed & 1) << 63, (uint64_t)(reversed >> 1) << 63};
+    const uint64x2_t a = vreinterpretq_u64_f64(vld1q_f64(v[0])), b = vreinterpretq_u64_f64(vld1q_f64(v[1])); /* x and y */
+    const uint64x2_t c = {nlc_bits(v[0][2]), nlc_bits(v[1][2])};
+    store(x, vreinterpretq_f64_u64(veorq_u64(vzip1q_u64(a, b), sign)));
+    store(y, vreinterpretq_f64_u64(veorq_u64(vzip2q_u64(a, b), sign)));
+    store(z, vreinterpretq_f64_u64(veorq_u64(c, sign)));
+}
+
 #include "../lanes.h"
 #endif

@@ -30,5 +30,19 @@ typedef __m256d vec;
 #define nmuladd(a, b, c) _mm256_fnmadd_pd(a, b, c)
 #define estimate(t) _mm256_cvtps_pd(_mm_rsqrt_ps(_mm256_cvtpd_ps(t)))
 
+/* Two rows at a time become pairs, [x0 x1 z0 z1] and [y0 y1 0 0], and pairs columns. */
+TARGET static inline void set_directions(double *x, double *y, double *z, const double *const *v, unsigned reversed)
+{
+    const __m256i three = _mm256_set_epi64x(0, -1, -1, -1), bits = _mm256_set_epi64x(8, 4, 2, 1);
+    const __m256i is_reversed = _mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x(reversed), bits), bits);
+    const vec sign = _mm256_and_pd(_mm256_castsi256_pd(is_reversed), set(-0.0));
+    const vec a = _mm256_maskload_pd(v[0], three), b = _mm256_maskload_pd(v[1], three);
+    const vec c = _mm256_maskload_pd(v[2], three), d = _mm256_maskload_pd(v[3], three);
+    const vec xz = _mm256_unpacklo_pd(a, b), yw = _mm256_unpackhi_pd(a, b), xz2 = _mm256_unpacklo_pd(c, d), yw2 = _mm256_unpackhi_pd(c, d);
+    store(x, _mm256_xor_pd(_mm256_permute2f128_pd(xz, xz2, 0x20), sign));
+    store(y, _mm256_xor_pd(_mm256_permute2f128_pd(yw, yw2, 0x20), sign));
+    store(z, _mm256_xor_pd(_mm256_permute2f128_pd(xz, xz2, 0x31), sign));
+}
+
 #include "../lanes.h"
 #endif

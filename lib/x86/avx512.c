@@ -30,5 +30,24 @@ typedef __m512d vec;
 #define nmuladd(a, b, c) _mm512_fnmadd_pd(a, b, c)
 #define estimate(t) _mm512_rsqrt14_pd(t)
 
+/* Rows l and l + 4 share a register; two of these become pairs, [x0 x1 z0 z1 x4 x5 z4 z5] and likewise of y, and pairs columns. */
+TARGET static inline void set_directions(double *x, double *y, double *z, const double *const *v, unsigned reversed)
+{
+    const __m256i three = _mm256_set_epi64x(0, -1, -1, -1);
+    const __m512i first = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0), second = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
+    const __m512i sign = _mm512_maskz_set1_epi64((__mmask8)reversed, INT64_MIN);
+    vec row[4];
+    for (int l = 0; l < 4; l++)
+        row[l] = _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_maskload_pd(v[l], three)), _mm256_maskload_pd(v[l + 4], three), 1);
+    const vec xz = _mm512_unpacklo_pd(row[0], row[1]), xz2 = _mm512_unpacklo_pd(row[2], row[3]);
+    const vec yw = _mm512_unpackhi_pd(row[0], row[1]), yw2 = _mm512_unpackhi_pd(row[2], row[3]);
+    const __m512i a = _mm512_castpd_si512(_mm512_permutex2var_pd(xz, first, xz2));
+    const __m512i b = _mm512_castpd_si512(_mm512_permutex2var_pd(yw, first, yw2));
+    const __m512i c = _mm512_castpd_si512(_mm512_permutex2var_pd(xz, second, xz2));
+    store(x, _mm512_castsi512_pd(_mm512_xor_si512(a, sign)));
+    store(y, _mm512_castsi512_pd(_mm512_xor_si512(b, sign)));
+    store(z, _mm512_castsi512_pd(_mm512_xor_si512(c, sign)));
+}
+
 #include "../lanes.h"
 #endif
