@@ -9,10 +9,10 @@
 
 /*
  * A candidate whose displacement is known from the step before takes part if what is left of its gap is less than this part
- * of the largest overlap nearby.  One of which nothing is known (0) does in any case if there is an overlap on its bodies, at
+ * of the largest overlap nearby, or of the displacement.  One of which nothing is known (0) does in any case if there is an overlap on its bodies, at
  * a start from nothing also one contact away.  A matter of speed only: to be wrong costs another solution.
  */
-#define NEAR 0.2
+#define NEAR 0.5
 
 static double largest_nearby(const nlc_network *n, int64_t c)
 {
@@ -63,9 +63,10 @@ int64_t nlc_mark_active(nlc_network *n, const double *overlap)
     const bool cold = nlc_largest_magnitude(n->current, n->contact_count) <= 0;
     if (cold) find_reach(n);
     for (int64_t c = 0; c < n->contact_count; c++) {
-        const double x = overlap[c] + n->current[c], top = largest_nearby(n, c);
-        const bool unknown = nlc_abs_bits(n->current[c]) == 0;
-        const bool near = cold ? is_within_reach(n, c) : unknown ? top > 0 : x > -NEAR * top;
+        const double g = n->current[c], x = overlap[c] + g, top = largest_nearby(n, c), scale = top > g ? top : g;
+        const bool unknown = nlc_abs_bits(g) == 0;
+        /* one that touched without an overlap anywhere near comes with a start cut down to x = 0 (start.c) */
+        const bool near = cold ? is_within_reach(n, c) : unknown ? top > 0 : x >= -NEAR * scale;
         n->mark[c] = x > 0 || overlap[c] > 0 || near ? NLC_IN : NLC_OUT;
     }
     return count_marks(n);
