@@ -37,6 +37,7 @@ nlc_verdict nlc_certify(nlc_iteration *q, double beta, nlc_outcome *out)
     if (q->theta > beta && q->theta < limit) return NLC_GO_ON; /* a Ritz value is a lower bound */
     if (q->n->known_bound <= beta && !has_grown(q)) {
         out->info.lambda_upper = q->n->known_bound;
+        out->info.critical_particle = q->n->known_where;
         return NLC_DONE;
     }
     nlc_for_contacts(q->n, set_slopes, q);

@@ -88,6 +88,7 @@ struct nlc_network {
     double unit; /* coefficients are multiplied by it */
     bool cached; /* the cache holds the coefficients at the normals of this call */
     double known_bound; /* of lambda, if swept, until an overlap exceeds nlc_weighed_overlap of what it is at the start; 1: none is known */
+    int64_t known_where; /* its particle; -1: on another rank */
     bool swept; /* side holds the displacements by the forces of current: the next iteration need not begin with a sweep */
     bool answered; /* side holds the result, in the units at hand; else current does, in the caller's */
     /* Work space; sides on walls stay 0 in side, walls in largest */

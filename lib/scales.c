@@ -60,7 +60,9 @@ double nlc_relative_size(const nlc_iteration *q, const double *values, int64_t *
     for (int64_t c = 0; c < n->contact_count; c++) {
         const double a = n->largest[n->i[c]], b = n->largest[n->j[c]], scale = a > b ? a : b, size = fabs(values[c]);
         if (size <= worst * scale || (scale <= 0 && size <= NOTHING * q->largest_force)) continue;
-        worst = nlc_ratio(size, scale);
+        const double ratio = nlc_ratio(size, scale); /* of next to nothing over nothing it may be less all the same */
+        if (ratio <= worst) continue;
+        worst = ratio;
         *where = c;
     }
     return nlc_largest_over_ranks(q->n, worst, where);

@@ -79,6 +79,7 @@ static nlc_guess take_sweep(nlc_iteration *q)
 static void hand_over(nlc_iteration *q, const nlc_guess *from, nlc_info *info, nlc_outcome *out)
 {
     q->n->known_bound = nlc_largest_over_ranks(q->n, nlc_bound_by_norms(q, KNOWN, info), &info->critical_particle);
+    q->n->known_where = info->critical_particle;
     out->info.blocks = info->blocks;
     for (int64_t c = 0; c < q->n->contact_count; c++) q->n->current[c] = from->nonlocal[c] * from->unit / q->per_overlap;
     for (int64_t e = 0; e < 2 * q->n->contact_count; e++) q->n->side[e] /= q->per_overlap;
