@@ -19,7 +19,10 @@
 #define RESTART_STEP 0.3
 #define GROWTH 4.0     /* of the residual: then back to the best, with shorter steps */
 #define STEPS 240
-#define PATIENCE 25 /* steps without the residual falling tenfold after which it begins again from Hertz */
+#define PATIENCE 40 /* steps without the residual falling tenfold after which it begins again from Hertz */
+#define STALLED 5     /* steps in which the residual has not halved, after which so many plain ones follow, while ... */
+#define CURVED 1e-4   /* ... it is more than this part of the overlaps */
+#define LONG_STEP 4.0 /* a plain step after one that has changed the residual by little */
 
 static bool sweep(nlc_iteration *q, nlc_outcome *out)
 {
@@ -132,12 +135,42 @@ static bool is_good_start(int start, double norm, double applied)
     return start == HERTZ || norm <= (start == GIVEN ? 0.01 : 1) * applied;
 }
 
+/* How it goes on: sums of squares of residuals. */
+typedef struct pace {
+    int waited;        /* steps since the residual fell tenfold */
+    int steps, plain;  /* so far; those to come that are plain */
+    double mark, then, last; /* the residual when it fell tenfold, some steps ago, and in the step before */
+} pace;
+
+static pace new_pace(void)
+{
+    return (pace){.mark = INFINITY, .then = INFINITY, .last = INFINITY};
+}
+
+/*
+ * Length of a plain step, 0: it is not yet time for one.  Where two solutions would meet if the load were a little different the
+ * residual has a minimum that is none, and combinations of steps stay there.  Plain steps get away, slowly, all along the same
+ * direction: there they may be long, until the others come up.
+ */
+static double plain_step(pace *p, double norm, double applied)
+{
+    const bool steady = norm > 0.6 * p->last && norm < 1.6 * p->last;
+    p->last = norm;
+    if (++p->steps % STALLED == 0) {
+        if (norm > 0.25 * p->then && norm > CURVED * CURVED * applied) p->plain = STALLED;
+        p->then = norm;
+    }
+    if (p->plain == 0) return 0;
+    p->plain--;
+    return steady ? LONG_STEP : FIRST_STEP;
+}
+
 void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
 {
     nlc_network *n = q->n;
     const int64_t count = n->contact_count;
-    double *x = n->spare[0], *y = n->spare[1], *best = n->spare[2], *kept = n->spare[3], mark = INFINITY;
-    int waited = 0;
+    double *x = n->spare[0], *y = n->spare[1], *best = n->spare[2], *kept = n->spare[3];
+    pace p = new_pace();
     bool cold, beyond = false;
     const bool twice = n->settings.model->self && nlc_on_any_rank(n, n->most_contacts > NLC_BLOCK);
     nlc_anderson h;
@@ -160,15 +193,14 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
         }
         double norm = residual(x, y, count);
         nlc_anderson_meet(&h, x, y, &norm);
-        waited = norm < 0.01 * mark ? 0 : waited + 1;
-        mark = waited == 0 ? norm : mark;
-        if ((!h.pending && !is_good_start(start, norm, applied)) || (waited > PATIENCE && start < HERTZ)) {
+        p.waited = norm < 0.01 * p.mark ? 0 : p.waited + 1;
+        p.mark = p.waited == 0 ? norm : p.mark;
+        if ((!h.pending && !is_good_start(start, norm, applied)) || (p.waited > PATIENCE && start < HERTZ)) {
             start = start == GIVEN && !h.pending && q->kept ? KEPT : HERTZ;
             if (start == KEPT) memcpy(x, kept, (size_t)count * sizeof *x);
             else start_from_overlaps(q, x);
             nlc_anderson_reset(&h, FIRST_STEP);
-            waited = 0;
-            mark = INFINITY;
+            p = new_pace();
             continue;
         }
         if (!beyond && out->info.lambda_upper > 1 - NLC_MARGIN) { /* small residuals below the end lead nowhere: it begins here */
@@ -184,6 +216,8 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
             h.smallest = norm;
             memcpy(best, x, (size_t)count * sizeof *best);
         }
+        const double length = plain_step(&p, norm, applied);
+        if (length > 0) nlc_anderson_reset(&h, length);
         nlc_anderson_combine(&h, x, y);
         nlc_ask_particles(q, h.old_x, y, out);
         nlc_anderson_move(&h, x, y);
