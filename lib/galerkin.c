@@ -31,18 +31,24 @@
 #define NEAR 0.01         /* residual below which Ritz values say something of lambda */
 #define NEARER 1e-5       /* ... and bounds, to a sixth of the margin or so */
 #define KEPT_FROM 0.8     /* Ritz value from which states are kept in case that the next one is beyond the end */
+#define EARLY_FROM 0.9    /* Ritz value from which a start that was given is looked at */
+#define MUCH_NEARER 0.1   /* than the start, in terms of residuals: nlc_weaken begins there then */
 #define RUNAWAY 1e6
 #define LINEAR 0.1        /* of the 3/2-th power of the residual: that is what linear steps may make of it */
 #define LINEAR_ENOUGH 0.1 /* of the tolerance: no less is asked of them */
 #define LINEAR_STEPS 6    /* nor more steps */
 #define ROUNDING 1e-13    /* residuals below may be rounding */
 
+enum { NONE = -1, EARLY, ROUGH, CLOSER }; /* looks */
+
 typedef struct progress {
     double ratio, best; /* residual relative to the force nearby, and the smallest so far */
     int64_t where;
     int stalled;        /* sweeps since it last fell, when it is near rounding */
     int critical;       /* sweeps in a row with a Ritz value near 1 */
-    int looks;
+    int looks;          /* those there have been */
+    bool warm;          /* a start was given */
+    double at_start;    /* its residual */
     bool all;
     int64_t begun;   /* sweeps before this solve */
     bool settled;    /* images are those of a state near the solution, so that Ritz values say something of lambda */
@@ -129,10 +135,11 @@ static void shorten(nlc_iteration *q)
 }
 
 /* Where nlc_weaken may begin. */
-static void keep(nlc_iteration *q)
+static void keep(nlc_iteration *q, const progress *s)
 {
     for (int64_t c = 0; c < q->n->contact_count; c++) q->n->spare[3][c] = nlc_scaled_overlap(q, c);
     q->kept = true;
+    q->nearer = q->largest_residual < MUCH_NEARER * s->at_start;
 }
 
 /* One step; false if the sweep failed. */
@@ -150,7 +157,7 @@ static bool advance(nlc_iteration *q, progress *s, nlc_outcome *out)
     const bool critical = q->theta >= 1 || (near && q->theta > 1 - NLC_MARGIN + 0.001);
     s->critical = out->info.sweeps - s->begun > 4 && critical ? s->critical + 1 : 0;
     s->all = s->all || q->theta > ALL_FROM || out->info.sweeps - s->begun > 12;
-    if (q->theta > KEPT_FROM && q->theta < 1) keep(q);
+    if (q->theta > KEPT_FROM && q->theta < 1) keep(q, s);
     nlc_take_step(q, s->all);
     s->exact = nlc_is_linear(q->n->settings.model->shape);
     s->since++;
@@ -177,12 +184,24 @@ static bool refresh(nlc_iteration *q, progress *s, nlc_outcome *out)
     return true;
 }
 
+/*
+ * Whether it is time to see if the end is near: a bound costs much, so each of these looks is taken once.  From a start that is past the
+ * end Ritz values come near 1 slowly, if it is a good one: the first look is for these.
+ */
+static int next_look(const nlc_iteration *q, const progress *s)
+{
+    if (q->largest_residual >= NEAR * q->largest_force) return NONE;
+    if (q->largest_residual < NEARER * q->largest_force && q->theta > 1 - 4 * NLC_MARGIN) return CLOSER; /* bounds may be above lambda by some margins */
+    return q->theta > 1 - 2 * NLC_MARGIN ? ROUGH : s->warm && q->theta > EARLY_FROM ? EARLY : NONE;
+}
+
 static nlc_verdict iterate(nlc_iteration *q, progress *s, nlc_outcome *out)
 {
     /* sweeps that a step needs after its own, to be judged */
     const int64_t more = nlc_is_linear(q->n->settings.model->shape) ? 0 : 1, most = q->n->settings.max_sweeps;
     if (!refresh(q, s, out)) return NLC_DONE;
     s->first = false;
+    s->at_start = q->largest_residual;
     if (s->repelled && out->info.sweeps < most) {
         nlc_relax(q);
         if (!refresh(q, s, out)) return NLC_DONE;
@@ -196,18 +215,18 @@ static nlc_verdict iterate(nlc_iteration *q, progress *s, nlc_outcome *out)
         if ((out->info.sweeps - s->begun > GIVE_UP && q->theta > HOPELESS) || s->critical >= 6) return NLC_BEYOND;
         if (out->info.sweeps - s->begun > LOST && q->largest_residual >= q->largest_force) return NLC_GO_ON;
         if (!advance(q, s, out)) return NLC_DONE;
-        const bool closer = q->largest_residual < NEARER * q->largest_force; /* the bound may be above lambda by some margins */
-        if (s->looks > closer || q->theta <= 1 - (closer ? 4 : 2) * NLC_MARGIN || q->largest_residual >= NEAR * q->largest_force) continue;
-        s->looks = closer ? 2 : 1;
-        if (nlc_is_too_near(q, closer, out)) return NLC_BEYOND;
+        const int look = next_look(q, s);
+        if (look < s->looks) continue;
+        s->looks = look + 1;
+        if (nlc_is_too_near(q, look == CLOSER, out)) return NLC_BEYOND;
     }
 }
 
 /* With a part of the overlaps applied. */
-static void solve(nlc_network *n, const double *overlap, const double *normal, double part, nlc_outcome *out)
+static void solve(nlc_network *n, const double *overlap, const double *normal, double part, bool warm, nlc_outcome *out)
 {
     nlc_iteration q;
-    progress s = {.ratio = 1e10, .best = INFINITY, .where = -1, .begun = out->info.sweeps, .first = true};
+    progress s = {.ratio = 1e10, .best = INFINITY, .where = -1, .warm = warm, .begun = out->info.sweeps, .first = true};
     if (!n->swept) n->known_bound = 1; /* it was for another start */
     nlc_iteration_start(&q, n, overlap, normal, part);
     const nlc_verdict v = iterate(&q, &s, out);
@@ -235,7 +254,7 @@ void nlc_galerkin(nlc_network *n, const double *overlap, const double *normal, n
     const int64_t most = n->settings.max_sweeps;
     const bool cold = nlc_is_shared(n) ? n->top.nonlocal <= 0 : nlc_largest_magnitude(n->current, n->contact_count) <= 0;
     for (int attempt = cold; attempt < 2; attempt++) {
-        solve(n, overlap, normal, 1, out);
+        solve(n, overlap, normal, 1, attempt == 0, out);
         if (out->status != NLC_WARNING_NOT_CONVERGED || out->info.sweeps >= most) return;
         for (int64_t c = 0; c < n->contact_count; c++) n->current[c] = 0;
         if (attempt == 0) nlc_start_over(out);
@@ -245,7 +264,7 @@ void nlc_galerkin(nlc_network *n, const double *overlap, const double *normal, n
         if (out->info.sweeps >= most - 1) step = LOAD_STEPS; /* the last one is for all of the load */
         const int64_t enough = out->info.sweeps + LOAD_SWEEPS < most - 1 ? out->info.sweeps + LOAD_SWEEPS : most - 1;
         n->settings.max_sweeps = step < LOAD_STEPS ? enough : most;
-        solve(n, overlap, normal, (double)step / LOAD_STEPS, out);
+        solve(n, overlap, normal, (double)step / LOAD_STEPS, false, out);
     }
     n->settings.max_sweeps = most;
 }

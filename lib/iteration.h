@@ -20,6 +20,7 @@ struct nlc_iteration {
     double step[NLC_DIRECTIONS], ritz[2][NLC_DIRECTIONS];
     double theta; /* largest Ritz value of the last step: at most lambda */
     bool kept;    /* spare[3] is the last state of an iteration towards the end of the stable branch that was not seen to be beyond */
+    bool nearer;  /* ... and solves the equations much better than the start did */
 };
 
 #define NLC_SOFTEST 1e-150 /* softer contacts carry nothing, and this may be divided by */

@@ -176,7 +176,7 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
     nlc_anderson h;
     start_from_overlaps(q, x);
     const double applied = applied_overlaps(q, x, best, &cold); /* best is the start given */
-    int start = !cold ? GIVEN : q->kept ? KEPT : HERTZ;
+    int start = !cold && !(q->kept && q->nearer) ? GIVEN : q->kept ? KEPT : HERTZ;
     nlc_anderson_start(&h, n, 1, kept, n->spare[4], NLC_FARTHEST); /* what is kept is looked at before the first step only */
     nlc_anderson_reset(&h, FIRST_STEP);
     if (start < HERTZ) memcpy(x, start == GIVEN ? best : kept, (size_t)count * sizeof *x);
