@@ -4,7 +4,8 @@
  *
  * `make check` runs a part of it in silence, `make stress` all of it with a table.  Every solve starts from nothing, with
  * floating-point traps on.  "Load" is relative to the end of the stable branch or, where that lies beyond, to a strain of 20 %.
- * Odd scenes are in stress_odd.c, scenes that change in stress_change.c.
+ * Odd scenes are in stress_odd.c, scenes that change in stress_change.c,
+ * packings past their end in stress_past.c.
  */
 #include <math.h>
 #include <stdio.h>
@@ -14,6 +15,7 @@
 
 TCase *stress_odd(void);
 TCase *stress_change(void);
+TCase *stress_past(void);
 
 static const double poisson[] = {0, 0.1, 0.2, 0.3, 0.4, 0.45, 0.49, 0.5};
 static const double tolerances[] = {1e-10, 1e-6};
@@ -345,6 +347,7 @@ int main(void)
     suite_add_tcase(suite, t);
     suite_add_tcase(suite, stress_odd());
     suite_add_tcase(suite, stress_change());
+    suite_add_tcase(suite, stress_past());
     tally_heading();
     return run_suite(suite);
 }
