@@ -521,7 +521,14 @@ typedef void (*nlc_parallel_callback)(void *context, void (*task)(void *work, in
  * The callbacks are called in turn by all ranks alike: exchange, reduce with sums, reduce with maxima, exchange ..., each always with
  * the same count.  They return 0, or any other number where they fail.  Then that rank returns NLC_ERROR_CALLBACK and the others
  * NLC_ERROR_REMOTE after at most two more reductions, and an exchange between them if it is due; only a failure of the very last
- * call comes too late for the others, which return what they have found.
+ * call comes too late for the others, which return what they have found.  A callback that brings a number that is not finite has
+ * failed, too, with 0 for what it returned; so has an exchange that brings a larger one than any owner can have (in an iteration's own
+ * units 2^450, else 2^1020).  Other wrong numbers give wrong results, which are finite.
+ *
+ * All ranks make the same calls, however many of these fail and where, but for one case: where two reductions in a row fail on one
+ * rank, and a failure elsewhere has become known in the first of them, that rank calls reduce, and exchange if it is due, once more than
+ * the others, which have returned.  So a callback that fails twice in a row is not to wait for others any more.  (Nobody who hears
+ * nothing can know whether the others have heard: no protocol that ends is without such a case.)
  */
 
 /*

@@ -161,8 +161,7 @@ void nlc_bound_balance(nlc_network *n, const double *normal, int passes, double 
             result->where = k;
         }
         nlc_exchange_particles(n, n->bound);
-        for (int64_t k = n->owned; k < n->particle_count; k++) /* whatever others have sent */
-            n->bound[k] = n->bound[k] < NLC_BOUND_FLOOR ? NLC_BOUND_FLOOR : n->bound[k] < HUGE_BOUND ? n->bound[k] : HUGE_BOUND;
+        nlc_clamp_ghosts(n, n->bound, NLC_BOUND_FLOOR, HUGE_BOUND);
         result->upper = nlc_largest_over_ranks(n, result->upper, &result->where);
         if (result->upper <= enough || pass == passes || n->ranks.over) return;
         move_shares(n);

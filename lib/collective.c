@@ -2,11 +2,21 @@
 /* collective.c - networks shared out among ranks. */
 #include "collective.h"
 
+#include <float.h>
+
 enum { EXCHANGE, SUMS, MAXIMA };
 enum { BETWEEN, LAST_BUT_ONE, LAST }; /* where a reduction is in a function */
 
 #define FAILED 1       /* the first value of a reduction, of a rank that has */
 #define LEAVING 0x1p40 /* of one that has heard of it: more than all ranks together can have failed */
+
+/*
+ * No owner has a larger number.  In the units of an iteration coupling is below 2^200 (solve.c, tangent.c), directions are 2^-90
+ * apart, and the rest is for forces and how many there are: squares and their sums are in range.  Without units it is what a sweep
+ * may come to (sweep.c), so that two of them can be added.
+ */
+#define MOST 0x1p450
+#define MOST_WITHOUT_UNITS 0x1p1020
 
 /* What is called where nothing is to be told. */
 static double *nothing(nlc_network *n)
@@ -50,19 +60,24 @@ static void exchange(nlc_network *n, double *side)
     if (answer != 0) nlc_fail(n, NLC_ERROR_CALLBACK, answer);
     for (int64_t s = 0; s < n->straddling; s++) {
         const int64_t c = nlc_straddling(n)[s], e = nlc_ghost_side(n, c);
-        if (answer == 0 && nlc_is_finite(side[e])) continue;
+        if (answer == 0 && nlc_abs_bits(side[e]) <= nlc_bits(n->ranks.most)) continue;
         side[e] = 0;
         nlc_fail(n, NLC_ERROR_CALLBACK, 0);
     }
 }
 
-/* The reduction whose turn it is; values has room for all.  What it answered. */
-static int reduce(nlc_network *n, double *values, double first)
+/* The reduction whose turn it is; values has room for all.  Whether it has not failed.  Maxima may be infinite, sums are not. */
+static bool reduce(nlc_network *n, double *values, double first)
 {
     const bool sums = n->ranks.turn == SUMS;
+    const int32_t count = sums ? NLC_SUMS : NLC_MAXIMA;
     n->ranks.turn = sums ? MAXIMA : EXCHANGE;
     values[0] = first;
-    return n->settings.reduce(n->settings.context, values, sums ? NLC_SUMS : NLC_MAXIMA, sums ? NLC_REDUCE_SUM : NLC_REDUCE_MAX);
+    const int answer = n->settings.reduce(n->settings.context, values, count, sums ? NLC_REDUCE_SUM : NLC_REDUCE_MAX);
+    bool good = answer == 0;
+    for (int32_t k = 0; k < count; k++) good &= sums ? nlc_is_finite(values[k]) : !nlc_is_nan(values[k]);
+    if (!good) nlc_fail(n, NLC_ERROR_CALLBACK, answer);
+    return good;
 }
 
 /* One reduction more, in which nothing else is told.  What the others told, 0 if that is not known. */
@@ -70,9 +85,7 @@ static double tell(nlc_network *n, double first)
 {
     double values[NLC_SUMS] = {0};
     if (n->ranks.turn == EXCHANGE) exchange(n, nothing(n));
-    const int answer = reduce(n, values, first);
-    if (answer != 0) nlc_fail(n, NLC_ERROR_CALLBACK, answer);
-    return answer == 0 ? values[0] : 0;
+    return reduce(n, values, first) ? values[0] : 0;
 }
 
 /*
@@ -91,10 +104,9 @@ static bool next(nlc_network *n, double *values, int count, int place)
     double all[NLC_SUMS] = {0};
     if (count > 0) memcpy(all + 1, values, (size_t)count * sizeof *all);
     const bool told = n->ranks.status != NLC_OK;
-    const int answer = reduce(n, all, told ? FAILED : 0);
-    if (answer != 0) nlc_fail(n, NLC_ERROR_CALLBACK, answer);
-    n->ranks.over = answer != 0 || all[0] > 0;
-    if (n->ranks.over && place != LAST) leave(n, answer == 0 || told, place);
+    const bool heard = reduce(n, all, told ? FAILED : 0);
+    n->ranks.over = !heard || all[0] > 0;
+    if (n->ranks.over && place != LAST) leave(n, heard || told, place);
     if (!n->ranks.over && count > 0) memcpy(values, all + 1, (size_t)count * sizeof *all);
     return !n->ranks.over;
 }
@@ -124,17 +136,25 @@ static double fingerprint(const nlc_network *n, nlc_function function)
     return (double)(h >> 11);
 }
 
+/* Whether numbers that are exchanged are in units in which they are moderate. */
+static bool has_units(const nlc_network *n, nlc_function function)
+{
+    if (function == NLC_SWEEP || function == NLC_ENERGY) return false;
+    return function != NLC_SOLVE || n->settings.method == NLC_METHOD_AUTOMATIC;
+}
+
 bool nlc_meet(nlc_network *n, nlc_function function, nlc_status status, int64_t culprit, double *bodies, double *maxima, int count)
 {
     const double here = fingerprint(n, function);
     double values[NLC_MAXIMA - 1] = {here, -here};
-    n->ranks = (nlc_ranks){.turn = EXCHANGE, .culprit = -1};
+    n->ranks = (nlc_ranks){.turn = EXCHANGE, .culprit = -1, .most = DBL_MAX};
     for (int64_t e = 0; e < 2 * n->contact_count; e++) nothing(n)[e] = 0;
     if (status != NLC_OK) nlc_fail(n, status, culprit);
     else if (bodies) nlc_exchange_particles(n, bodies);
     for (int k = 0; k < count; k++) values[2 + k] = maxima[k];
     if (!nlc_max_over_ranks(n, values, count + 2)) return false;
     for (int k = 0; k < count; k++) maxima[k] = values[2 + k];
+    n->ranks.most = has_units(n, function) ? MOST : MOST_WITHOUT_UNITS;
     if (values[0] + values[1] > 0) nlc_give_up(n, NLC_ERROR_OPTION);
     return !n->ranks.over;
 }
@@ -218,5 +238,12 @@ void nlc_exchange_particles(nlc_network *n, double *value)
     for (int64_t s = 0; s < n->straddling; s++) {
         const int64_t c = nlc_straddling(n)[s], ghost = nlc_ghost_side(n, c);
         value[ghost & 1 ? n->j[c] : n->i[c]] = side[ghost];
+        side[ghost] = side[ghost ^ 1] = 0; /* what is called where nothing is to be told brings no numbers in other units */
     }
+}
+
+void nlc_clamp_ghosts(const nlc_network *n, double *value, double least, double most)
+{
+    for (int64_t k = n->owned; k < n->particle_count; k++)
+        value[k] = value[k] < least ? least : value[k] < most ? value[k] : most;
 }

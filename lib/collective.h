@@ -6,7 +6,9 @@
  * that fails (nlc_fail) goes on as if it had not until the next reduction, which tells all: from then on the network is over, and
  * these functions return false.  A rank whose reduction fails knows nothing but what comes next, since the callbacks come in turn,
  * always with the same counts; so it takes part in the next one to tell the others, who take part in one more for the sake of such
- * ranks when they hear of a failure.  What a phase of the solver has no use for is called all the same.
+ * ranks when they hear of a failure.  All ranks end in the same call but where a reduction in which others hear of a failure, and the
+ * next one, too, fail on a rank: it cannot know that they have left.  Any rule for leaving has a case of this kind, since who tells last
+ * is not told whether it was heard; in this one two reductions have to fail in a row on one rank.  What a phase of the solver has no use for is called all the same.
  *
  * In a network that is not shared all this does nothing, and says true.
  */
@@ -80,6 +82,9 @@ bool nlc_is_over(const nlc_network *network, nlc_outcome *outcome);
 /* From the owners: values of the sides on ghosts; values [bodies] of ghosts. */
 void nlc_exchange_sides(nlc_network *network, double *side);
 void nlc_exchange_particles(nlc_network *network, double *value);
+
+/* Values of ghosts, whatever others have sent, to where the owners' are known to be. */
+void nlc_clamp_ghosts(const nlc_network *network, double *value, double least, double most);
 
 /* a . b over the contacts of all ranks, from that over those of this one. */
 double nlc_dot_over_ranks(nlc_network *network, double here, const double *a, const double *b);

@@ -10,6 +10,7 @@
 
 /* Beyond this many tolerances the forces are no solution of the equations: weakened, lagged, another scene's. */
 #define SOLUTION 10
+#define FARTHEST 0x1p20 /* displacement, in units of the largest */
 #define ROUNDING 1e-13 /* what no solution can be asked to be better than */
 
 typedef struct sum {
@@ -47,12 +48,16 @@ static void find_residual(nlc_network *n, const double *force, const double *ove
     }
 }
 
-/* After a sweep for the energy; everything relative to the largest force and overlap. */
+/*
+ * After a sweep for the energy; everything relative to the largest force and overlap, and no displacement that much larger, as that of
+ * a ghost might be, of which the first sweep knew nothing.
+ */
 static void add_up(const nlc_network *n, const double *force, const double *overlap, double per_force, double per_overlap, sum *s)
 {
+    const double most = FARTHEST / per_overlap;
     for (int64_t c = 0; c < n->contact_count; c++) {
         const double own = nlc_hertz_overlap(n->stiffness[c], force[c]) * per_overlap;
-        const double g = (n->side[2 * c] + n->side[2 * c + 1]) * per_overlap;
+        const double sum = n->side[2 * c] + n->side[2 * c + 1], g = (fabs(sum) < most ? sum : 0) * per_overlap;
         const double energy = force[c] * per_force * (overlap[c] * per_overlap + 0.5 * g - 0.6 * own);
         s->energy += nlc_is_straddling(n, c) ? 0.5 * energy : energy;
     }
@@ -95,6 +100,7 @@ static double energy_of(nlc_network *n, const double *force, const double *overl
     if (nlc_is_over(n, out) || out->status != NLC_OK) return 0;
     const double per_force = nlc_pow2(p < -1000 ? 1000 : -p), per_overlap = nlc_pow2(x < -1000 ? 1000 : -x);
     nlc_exchange_particles(n, n->largest);
+    nlc_clamp_ghosts(n, n->largest, 0, top[0]);
     find_residual(n, force, overlap, nlc_join(1, p + 40), per_force, per_overlap, &s);
     record->residual = nlc_largest_over_ranks(n, s.residual, &s.worst);
     record->worst_contact = s.worst;

@@ -50,6 +50,7 @@ typedef struct nlc_ranks {
     bool over;         /* all ranks know of an error */
     nlc_status status; /* of this rank */
     int64_t culprit;
+    double most;       /* magnitude that a ghost may bring */
 } nlc_ranks;
 
 /* Largest magnitudes of what is being solved for, on any rank; negative: not known.  circle: nlc_larger_circle, of this rank. */

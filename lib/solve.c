@@ -122,6 +122,7 @@ static bool meet(nlc_network *n, nlc_status status, const double *overlap, nlc_o
         top[2] = n->top.nonlocal;
     }
     nlc_meet(n, NLC_SOLVE, status, out->info.culprit, n->largest, top, 5);
+    nlc_clamp_ghosts(n, n->largest, 0, top[0]);
     memcpy(nlc_shared_overlaps(n), n->largest, (size_t)n->body_count * sizeof *n->largest);
     n->top = (nlc_tops){top[0], top[1], top[2], -1};
     if (nlc_is_over(n, out)) return false;

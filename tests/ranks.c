@@ -43,7 +43,8 @@ static void meet(rank *r, double *values, int32_t count, int kind)
 /* One that fails has done its part, but hands out nothing of use. */
 static int answer(const rank *r)
 {
-    return rank_calls(r) == r->fail_at ? 1000 + r->number : 0;
+    const int64_t at = rank_calls(r);
+    return at == r->fail_at || at == r->fail_too[0] || at == r->fail_too[1] ? 1000 + r->number : 0;
 }
 
 static int exchange(void *context, double *side)
@@ -62,7 +63,7 @@ static int exchange(void *context, double *side)
     }
     pthread_barrier_wait(&r->all->barrier);
     for (int64_t c = 0; c < n; c++)
-        if (r->peer[c] >= 0) side[2 * c + (r->s.i[c] < r->owned ? 1 : 0)] = answer(r) ? NAN : ghost[c];
+        if (r->peer[c] >= 0) side[2 * c + (r->s.i[c] < r->owned ? 1 : 0)] = answer(r) ? NAN : rank_calls(r) == r->odd_at ? r->odd : ghost[c];
     free(ghost);
     return answer(r);
 }
@@ -81,7 +82,7 @@ static int reduce(void *context, double *values, int32_t count, int32_t operatio
         }
     }
     pthread_barrier_wait(&r->all->barrier);
-    for (int32_t k = 0; k < count; k++) values[k] = answer(r) ? NAN : result[k];
+    for (int32_t k = 0; k < count; k++) values[k] = answer(r) ? NAN : rank_calls(r) == r->odd_at ? r->odd : result[k];
     free(result);
     return answer(r);
 }

@@ -30,7 +30,9 @@ typedef struct rank {
     nlc_status status;
     nlc_info info;
     int64_t exchanges, sums, maxima; /* calls */
-    int64_t fail_at; /* number of the call that fails here, from 1; 0: none */
+    int64_t fail_at, fail_too[2]; /* numbers of the calls that fail here, from 1; 0: none */
+    int64_t odd_at;  /* number of the call that brings this number here, from all ghosts or as all values */
+    double odd;
     double *displacement, *change, *stiffness, energy; /* other results: [2 contacts], [contacts], [particles] */
     double *turning; /* [particles][3], ghosts' too */
     void (*task)(struct rank *);

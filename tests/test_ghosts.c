@@ -445,6 +445,146 @@ START_TEST(failing_beyond)
 }
 END_TEST
 
+/* The next reduction after a call, of which every third one is an exchange. */
+static int64_t next_reduction(int64_t at)
+{
+    return at % 3 == 0 ? at + 2 : at + 1;
+}
+
+/* Whether one rank's reductions fail twice in a row. */
+static bool fails_in_a_row(const int *rank, const int64_t *at, int count)
+{
+    bool found = false;
+    for (int a = 0; a < count; a++)
+        for (int b = 0; b < count; b++) found |= rank[a] == rank[b] && at[a] % 3 != 1 && at[b] == next_reduction(at[a]);
+    return found;
+}
+
+/* These calls fail, of which there may be fewer.  All ranks return after the same one, with errors if it is not the last. */
+static void fail_several(ranks *w, void (*task)(rank *), const int *where, const int64_t *at, int count, int64_t calls)
+{
+    kept k[RANKS];
+    int64_t first = at[0];
+    for (int a = 0; a < count; a++) {
+        rank *r = &w->rank[where[a]];
+        int64_t *const room[3] = {&r->fail_at, &r->fail_too[0], &r->fail_too[1]};
+        *room[a] = at[a];
+        first = at[a] < first ? at[a] : first;
+    }
+    for (int q = 0; q < w->count; q++) k[q] = keep(&w->rank[q]);
+    ranks_run(w, task);
+    for (int q = 0; q < w->count; q++) {
+        rank *r = &w->rank[q];
+        const int64_t called = rank_calls(r);
+        bool here = false;
+        for (int a = 0; a < count; a++) here |= where[a] == q && at[a] <= called;
+        ck_assert_int_eq(called, rank_calls(&w->rank[0]));
+        if (first >= calls && !here) {
+            ck_assert_int_ge(r->status, 0);
+        } else {
+            ck_assert_int_eq(r->status, here ? NLC_ERROR_CALLBACK : NLC_ERROR_REMOTE);
+            ck_assert_int_eq(r->info.culprit, here ? 1000 + q : -1);
+            ck_assert(is_kept(r, &k[q]));
+        }
+        put_back(r, &k[q]);
+        r->fail_at = r->fail_too[0] = r->fail_too[1] = 0;
+    }
+}
+
+/* All pairs and triples of calls that fail, those behind a failure too, but for a rank's reductions that fail twice in a row. */
+START_TEST(failing_twice)
+{
+    void (*const task)(rank *) = _i < 2 ? rank_sweep : rank_solve;
+    const int count = 2 + _i % 2;
+    rng g = {7};
+    scene s;
+    ranks w;
+    make(&s, 0, 0, &g);
+    share_out(&w, &s, count, 1, &g);
+    ranks_run(&w, rank_build);
+    ranks_run(&w, rank_solve);
+    ranks_run(&w, task);
+    agree(&w);
+    const int64_t calls = rank_calls(&w.rank[0]), slots = (calls + 4) * count;
+    const uint64_t part = _i < 2 ? 1 : 1 + (uint64_t)(slots * slots * slots) / 20000;
+    for (int64_t a = 0; a < slots; a++)
+        for (int64_t b = 0; b < a; b++)
+            for (int64_t c = -1; c < b; c++) { /* -1: no third one */
+                const int64_t slot[3] = {a, b, c};
+                const int several = c < 0 ? 2 : 3;
+                int where[3];
+                int64_t at[3];
+                for (int m = 0; m < several; m++) where[m] = (int)(slot[m] % count), at[m] = 1 + slot[m] / count;
+                if (fails_in_a_row(where, at, several) || (c >= 0 && rng_below(&g, part) != 0)) continue;
+                fail_several(&w, task, where, at, several, calls);
+            }
+    ranks_run(&w, task); /* nothing is left of it */
+    agree(&w);
+    ck_assert_int_ge(w.rank[0].status, 0);
+    ck_assert_int_eq(rank_calls(&w.rank[0]), calls);
+    ranks_free(&w);
+    scene_free(&s);
+}
+END_TEST
+
+static bool is_usable(const rank *r)
+{
+    bool good = isfinite(r->energy);
+    for (int64_t c = 0; c < r->s.contacts; c++)
+        good &= isfinite(r->s.force[c]) && r->s.force[c] >= 0 && isfinite(r->s.nonlocal[c]) && isfinite(r->displacement[2 * c]) &&
+                isfinite(r->displacement[2 * c + 1]) && isfinite(r->change[c]);
+    for (int64_t k = 0; k < r->s.particles; k++) good &= isfinite(r->stiffness[k]);
+    return good;
+}
+
+/*
+ * Ghosts bring numbers that no owner has: in each exchange, on one rank or all; and reductions such as are none.  No exception is raised, all make the same calls, and
+ * all fail or none, with results that are finite.  What is not finite fails; so does in an iteration's own units what is much too large.
+ */
+START_TEST(odd_numbers)
+{
+    static const double odd[] = {NAN, INFINITY, -INFINITY, 1e308, -1e308, DBL_MAX, 1e300, -1e200, 1e160, 1e120, -1e80, 1e30, -1, 5e-324, 0};
+    scene s;
+    ranks w;
+    begin_failing(&s, &w, _i % MODELS, 0);
+    if (_i >= MODELS) s.options.method = NLC_METHOD_FIXED_POINT;
+    if (_i >= MODELS) ranks_run(&w, rank_build);
+    for (int f = -1; f < TASKS; f++) { /* to begin with from the solution, then from nothing */
+        void (*const task)(rank *) = tasks[f < 0 ? 0 : f];
+        if ((f > 1 && !has_energy(&s)) || (f > 0 && _i >= MODELS)) continue;
+        for (int q = 0; q < RANKS && f == 0; q++)
+            for (int64_t c = 0; c < w.rank[q].s.contacts; c++) w.rank[q].s.nonlocal[c] = 0;
+        kept k[RANKS];
+        for (int q = 0; q < RANKS; q++) k[q] = keep(&w.rank[q]);
+        ranks_run(&w, task);
+        const int64_t calls = rank_calls(&w.rank[0]);
+        for (int q = 0; q < RANKS; q++) put_back(&w.rank[q], &k[q]);
+        for (int64_t at = 1; at < calls; at++)
+            for (size_t v = 0; v < (at % 3 == 1 ? sizeof odd / sizeof *odd : at % 3 == 2 ? 3 : 1); v++) { /* maxima may be infinite */
+                const unsigned where = at % 2 ? 7 : 1u << v % RANKS;
+                for (int q = 0; q < RANKS; q++) {
+                    k[q] = keep(&w.rank[q]);
+                    w.rank[q].odd_at = where >> q & 1 ? at : 0;
+                    w.rank[q].odd = odd[v];
+                }
+                ranks_run(&w, task);
+                for (int q = 0; q < RANKS; q++) {
+                    rank *r = &w.rank[q];
+                    ck_assert_int_eq(rank_calls(r), rank_calls(&w.rank[0]));
+                    ck_assert((r->status < 0) == (w.rank[0].status < 0));
+                    ck_assert(r->status >= 0 ? is_usable(r) : is_kept(r, &k[q]));
+                    if (!isfinite(odd[v])) ck_assert_int_eq(r->status, where >> q & 1 ? NLC_ERROR_CALLBACK : NLC_ERROR_REMOTE);
+                    if (r->status == NLC_ERROR_CALLBACK) ck_assert_int_eq(r->info.culprit, 0);
+                    put_back(r, &k[q]);
+                    r->odd_at = 0;
+                }
+            }
+    }
+    ranks_free(&w);
+    scene_free(&s);
+}
+END_TEST
+
 /* After a task in which one rank finds something wrong with what it was given. */
 static void demand_error(ranks *w, void (*task)(rank *), int where, nlc_status status, int64_t culprit)
 {
@@ -855,6 +995,8 @@ int main(void)
     time_limit(t, 120);
     tcase_add_loop_test(t, failing_callbacks, 0, MODELS);
     tcase_add_loop_test(t, failing_beyond, 0, 2);
+    tcase_add_loop_test(t, failing_twice, 0, 4);
+    tcase_add_loop_test(t, odd_numbers, 0, 2 * MODELS);
     tcase_add_loop_test(t, wrong_arguments, 0, MODELS);
     tcase_add_test(t, other_errors);
     suite_add_tcase(suite, t);

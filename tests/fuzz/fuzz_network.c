@@ -403,10 +403,10 @@ static void begin(scene *s, int64_t fail_at)
     host.ghosts[0] = owned > 0 ? owned : particles, host.ghosts[1] = particles;
 }
 
-/* Whether a failure may be told without one: for what ghosts have brought. */
+/* Whether a failure may be told without one: for what ghosts have brought, which is too much for any owner. */
 static bool is_odd(void)
 {
-    return host.ghosts[0] < host.ghosts[1] && host.kind >> 8 != 0 && !isfinite(host.odd);
+    return host.ghosts[0] < host.ghosts[1] && host.kind >> 8 != 0 && !(fabs(host.odd) < 0x1p450);
 }
 
 static void rehearsed(scene *s, const nlc_info *info, const results *r, nlc_status status)
