@@ -25,6 +25,11 @@ static double weight_of(const nlc_network *n, int64_t e)
     return (share > 0) * n->slope[e >> 1] / (share + (share <= 0));
 }
 
+static double capped(double v)
+{
+    return v > NLC_LARGEST_ELEMENT ? NLC_LARGEST_ELEMENT : v < -NLC_LARGEST_ELEMENT ? -NLC_LARGEST_ELEMENT : v;
+}
+
 /* What contacts do to themselves. */
 static double own_of(const nlc_network *n, int64_t e)
 {
@@ -88,7 +93,7 @@ int nlc_block_matrix(double *B, int64_t *side, const nlc_network *n, const doubl
         B[row[a] * rows + row[a]] += root[a] * root[a] * own_of(n, entry[a]);
         n->settings.model->coefficients(coefficient, &b, a, nlc_kernel_of(n, particle));
         for (int d = 0; d < a; d++) {
-            const double v = U * coefficient[d] * root[a] * root[d];
+            const double v = capped(U * coefficient[d] * root[a] * root[d]);
             B[row[a] * rows + row[d]] += v;
             B[row[d] * rows + row[a]] += v;
         }
@@ -122,7 +127,7 @@ static void apply(nlc_network *n, const double *normal, int64_t k, double *w, co
     EACH_CONTACT(e)
     {
         const double u = n->side[e] + (is_self(n, e) ? n->side[e ^ 1] : 0);
-        w[e >> 1] = root_weight(n, e) * u;
+        w[e >> 1] = capped(root_weight(n, e) * u);
     }
 }
 
@@ -131,7 +136,7 @@ static double last_component(const double *a, const double *b, int n, double the
 {
     double y = 1, before = 0, norm = 1;
     for (int l = n - 1; l > 0 && norm < 1e100; l--) {
-        const double z = ((theta - a[l]) * y - (l < n - 1 ? b[l] * before : 0)) / b[l - 1];
+        const double z = capped(((theta - a[l]) * y - (l < n - 1 ? b[l] * before : 0)) / b[l - 1]);
         before = y;
         y = z;
         norm += z * z;

@@ -9,6 +9,9 @@
 
 #include "network.h"
 
+/* No element counts as larger, as those of directions that nobody has found to be equal are: squares and ratios of it are in range. */
+#define NLC_LARGEST_ELEMENT 1e100
+
 /* A bound of its largest eigenvalue by the Frobenius norm: trace/m + [(m-1)/m (|B|^2 - trace^2/m)]^(1/2), Wolkowicz and Styan. */
 double nlc_block_norm(const nlc_network *network, const double *normal, int64_t particle);
 

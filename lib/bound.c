@@ -8,7 +8,6 @@
 
 /* No side gets less: a share near zero would make its particle's block huge. */
 #define SHARE_MIN 0.05
-#define HUGE_BOUND 1e100 /* squares and ratios of what is less are in range */
 
 /* Shares in the ratio of a to b, by the same roundings whichever side is called i. */
 static void set_shares(nlc_network *n, int64_t c, double a, double b)
@@ -161,7 +160,7 @@ void nlc_bound_balance(nlc_network *n, const double *normal, int passes, double 
             result->where = k;
         }
         nlc_exchange_particles(n, n->bound);
-        nlc_clamp_ghosts(n, n->bound, NLC_BOUND_FLOOR, HUGE_BOUND);
+        nlc_clamp_ghosts(n, n->bound, NLC_BOUND_FLOOR, NLC_LARGEST_ELEMENT);
         result->upper = nlc_largest_over_ranks(n, result->upper, &result->where);
         if (result->upper <= enough || pass == passes || n->ranks.over) return;
         move_shares(n);

@@ -4,6 +4,9 @@
 
 #include <math.h>
 
+/* Ritz values beyond this say no more than that there is nothing to be found: for numbers of ghosts that are those of no coupling. */
+#define LARGEST 1e120
+
 /* Turns coordinates i and j of A so that A[i][j] vanishes; V collects the turns. */
 static void rotate(int n, nlc_small A, nlc_small V, int i, int j)
 {
@@ -68,6 +71,7 @@ int nlc_ritz(int n, nlc_small M, nlc_small K, nlc_small Y, double theta[NLC_DIRE
             H[i][j] = 0;
             for (int x = 0; x < n; x++)
                 for (int y = 0; y < n; y++) H[i][j] += T[x][i] * K[x][y] * T[y][j];
+            H[i][j] = H[i][j] > LARGEST ? LARGEST : H[i][j] < -LARGEST ? -LARGEST : H[i][j];
         }
     diagonalise(rank, H, U);
     for (int r = 0; r < rank; r++) {
@@ -82,6 +86,7 @@ int nlc_ritz(int n, nlc_small M, nlc_small K, nlc_small Y, double theta[NLC_DIRE
 
 bool nlc_is_below(double *B, int n, double beta)
 {
+    const double least = 1e-13 * beta + 1e-60;
     for (int a = 0; a < n; a++) { /* Cholesky; the diagonal keeps the inverse of the root of its pivot */
         double *row = B + a * n, pivot = beta - row[a];
         for (int d = 0; d < a; d++) {
@@ -90,8 +95,9 @@ bool nlc_is_below(double *B, int n, double beta)
             for (int l = 0; l < d; l++) s -= row[l] * above[l];
             row[d] = s * above[d];
             pivot -= row[d] * row[d];
+            if (pivot <= least) return false; /* at once: of what is far above beta the rows would grow without end */
         }
-        if (pivot <= 1e-13 * beta) return false;
+        if (pivot <= least) return false;
         row[a] = 1 / sqrt(pivot);
     }
     return true;
@@ -106,7 +112,7 @@ static void reduce(double *B, int n, double *a, double *b, double *v, double *p)
         const double first = B[(k + 1) * n + k], rest = s - first * first;
         a[k] = B[k * n + k];
         b[k] = first;
-        if (rest <= 1e-32 * s) continue;
+        if (rest <= 1e-32 * s + 1e-200) continue; /* what is so small in a matrix of about 1 moves no eigenvalue */
         b[k] = first > 0 ? -sqrt(s) : sqrt(s);
         v[k + 1] = first - b[k];
         const double h = v[k + 1] * v[k + 1] + rest;

@@ -262,6 +262,36 @@ START_TEST(units_do_not_matter)
 }
 END_TEST
 
+/*
+ * Two contacts in the same direction, on particles whose block is looked at in one piece and on one with more contacts: without a
+ * bound, however stiff they are, and without an exception.
+ */
+START_TEST(equal_directions)
+{
+    static const int counts[] = {2, 3, 9, 63, 70, 200};
+    for (int k = 0; k < 6; k++)
+        for (double scale = 1; scale < 1e50; scale *= 1e12) {
+            scene s;
+            scene_init(&s);
+            const int count = counts[k];
+            const int32_t soft = scene_material(&s, 1e9, 0.3), middle = scene_particle(&s, 1, soft);
+            for (int c = 0; c < count; c++) { /* a spiral; the last one is where the first one is */
+                const int at = c == count - 1 ? 0 : c;
+                const double z = 1 - (2 * at + 1.0) / count, r = sqrt(1 - z * z);
+                scene_contact(&s, middle, scene_particle(&s, 1, soft), 1e-3, r * cos(2.4 * at), r * sin(2.4 * at), z);
+                stiffness[c] = 1e9 * scale;
+            }
+            s.options.stiffness = stiffness;
+            ck_assert_int_eq(scene_build(&s), NLC_OK);
+            for (int c = 0; c < count; c++) s.force[c] = 1e9 * scale * (1 + c % 3);
+            double *bound = calloc((size_t)s.particles, sizeof *bound);
+            ck_assert_int_eq(nlc_tangent_bound(s.network, bound, s.force, s.normal, 0), NLC_ERROR_UNSTABLE);
+            free(bound);
+            scene_free(&s);
+        }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("tangent");
@@ -276,6 +306,7 @@ int main(void)
     tcase_add_test(t, symmetric_crowd);
     tcase_add_test(t, memory_need_not_be_clean);
     tcase_add_test(t, units_do_not_matter);
+    tcase_add_test(t, equal_directions);
     suite_add_tcase(suite, t);
     return run_suite(suite);
 }
