@@ -60,10 +60,14 @@ nlc_status nlc_read_settings(nlc_settings *settings, const nlc_options *o, int64
     return NLC_OK;
 }
 
-/* Kernel constants are at most 8 prefactors times U: far enough from the end of double's range for a sweep's intermediates. */
+/*
+ * Kernel constants are at most 8 prefactors times U: far enough from the end of double's range for a sweep's intermediates.  What a
+ * prefactor has too much, stiffnesses can have too little: within 2^100 the squares of either are in range (block.c).
+ */
 bool nlc_prefactor_in_range(const nlc_network *n, const nlc_settings *settings)
 {
-    return n->scale_exponent + nlc_exponent_above(settings->prefactor) + 3 < 1000 && nlc_exponent_above(settings->prefactor) < 1000;
+    const int e = nlc_exponent_above(settings->prefactor);
+    return e > -100 && e <= 100 && n->scale_exponent + e + 3 < 1000;
 }
 
 static double hertz_stiffness_of(const nlc_network *n, int64_t c)

@@ -274,7 +274,8 @@ START_TEST(options)
     for (int b = 0; b < 4; b++) WITH(f.options.simd, bad_simd[b], init(), NLC_ERROR_OPTION, offsetof(nlc_options, simd));
     WITH(f.options.points, 2, init(), NLC_ERROR_OPTION, offsetof(nlc_options, points));
     f.options.model = NLC_MODEL_HALF_SPACE;
-    WITH(f.options.prefactor, 1e305, init(), NLC_ERROR_RANGE, -1);
+    WITH(f.options.prefactor, 0x1p100, init(), NLC_ERROR_RANGE, -1);
+    WITH(f.options.prefactor, 0x0.8p-100, init(), NLC_ERROR_RANGE, -1);
     WITH(f.options.prefactor, 1e305, nlc_set_options(f.s.network, &f.options, &f.info), NLC_ERROR_RANGE, -1);
     f.options.model = NLC_MODEL_GONZALEZ_CUITINO;
     WITH(f.options.method, 99, nlc_set_options(f.s.network, &f.options, &f.info), NLC_ERROR_METHOD, 99);
