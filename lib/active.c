@@ -4,6 +4,7 @@
 
 #include "contact.h"
 #include "crowd.h"
+#include "iteration.h"
 
 #include <string.h>
 
@@ -226,6 +227,7 @@ static bool is_loaded(const nlc_network *n, int64_t k)
 
 int64_t nlc_check_rest(nlc_network *n, const double *overlap, const double *normal, int64_t *culprit)
 {
+    const double most = NLC_FARTHEST * n->top.overlap; /* as in an iteration: where sweeps have run out it is left at that */
     int64_t touching = 0;
     nlc_set_units(n, 0, 0);
     for (int64_t c = 0; c < n->contact_count; c++)
@@ -238,6 +240,7 @@ int64_t nlc_check_rest(nlc_network *n, const double *overlap, const double *norm
     }
     for (int64_t k = 0; k < n->particle_count; k++) n->changed[k] = 0;
     for (int64_t c = 0; c < n->contact_count; c++) {
+        if (overlap[c] + n->current[c] > most) n->current[c] = most - overlap[c];
         if (n->mark[c] != NLC_OUT || overlap[c] + n->current[c] <= 0) continue;
         touching++;
         if (n->i[c] < n->particle_count) n->changed[n->i[c]] = 1;

@@ -11,6 +11,7 @@
 #include "structs.h"
 
 #define PART 0.1 /* of the tolerance, for the residual of the linear equations */
+#define LOST 1e60 /* growth of its square: of a positive matrix it would take one with a condition of that, and rounding has the word */
 
 typedef struct units {
     int stiffness, force, slope; /* exponents of 2: k, P and D = dP/dx */
@@ -84,7 +85,7 @@ static void solve_linear(nlc_network *n, double *x, double *b, const double *nor
     for (int64_t c = 0; c < count; c++) x[c] = 0, p[c] = b[c];
     while (rr > enough && rr > 1e-290) {
         if (nlc_is_over(n, o)) break;
-        if (o->info.sweeps >= n->settings.max_sweeps) o->status = NLC_WARNING_NOT_CONVERGED;
+        if (o->info.sweeps >= n->settings.max_sweeps || rr > LOST * first) o->status = NLC_WARNING_NOT_CONVERGED;
         if (o->status != NLC_OK || !couple(n, a, p, normal, o)) break;
         for (int64_t c = 0; c < count; c++) a[c] = p[c] - a[c];
         const double curvature = dot(n, p, a), before = rr;
