@@ -67,9 +67,11 @@ double nlc_overlap_nearby(const nlc_iteration *q, int64_t c)
 static void finish(void *work, int64_t from, int64_t end)
 {
     const nlc_iteration *q = work;
+    const int unit = q->n->length_unit;
+    const double lowest = -nlc_pow2(unit < 0 ? 1020 + unit : 1020); /* how far it is open makes no difference */
     for (int64_t c = from; c < end; c++) {
-        const double highest = NLC_FARTHEST - q->overlap[c] * q->load;
-        q->n->current[c] = (q->n->current[c] < highest ? q->n->current[c] : highest) / q->per_overlap;
+        const double highest = NLC_FARTHEST - q->overlap[c] * q->load, g = q->n->current[c] < highest ? q->n->current[c] : highest;
+        q->n->current[c] = (g > lowest ? g : lowest) / q->per_overlap;
     }
 }
 
