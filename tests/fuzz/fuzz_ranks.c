@@ -1,16 +1,21 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
- * fuzz_ranks.c - a network shared out between two ranks, threads of this process, and what they call together.
+ * fuzz_ranks.c - a network shared out between two ranks, which take turns in this process, and what they call together.
  *
  * What is demanded: both make the same calls, in turn, with the same counts, and none waits for ever; both succeed with the same
  * warnings or both fail; both find the same forces; nothing changes on an error.  Everything is done three times: the second time a
- * call fails on one rank, which both have to say, the third time nothing may be left of that.
+ * call fails on one rank, or two do, which both have to say, the third time nothing may be left of that.
  */
 #include "fuzz.h"
 
 #include <math.h>
-#include <pthread.h>
 #include <string.h>
+
+#if defined(__GLIBC__)
+#include <ucontext.h> /* ten times as fast as threads, and not everywhere */
+#else
+#include <pthread.h>
+#endif
 
 enum { RANKS = 2, PARTICLES = 9, CONTACTS = 16, BODIES = PARTICLES + 1, STEPS = 4 };
 enum { ODD_OVERLAPS, ODD_NORMALS, ODD_STARTS, ODD_OPTIONS, ODD_FORCES }; /* what may be arbitrary */
@@ -42,14 +47,81 @@ typedef struct rank {
     double *values;            /* in a callback: what, of what kind, how many */
     int kind;
     int32_t count, fixed[3];
-    int64_t calls, done, fail_at;
+    int64_t calls, done, fail_at[2];
     bool finished;
 } rank;
 
 static rank ranks[RANKS];
 static int task; /* what both do */
+
+/* ---- turns: one rank works, until it has to wait for the other one */
+
+static void begin(rank *r);
+
+#if defined(__GLIBC__)
+
+static ucontext_t contexts[RANKS];
+static char stack[1 << 22]; /* of the second rank; the first one has that of the program */
+
+static void begin_second(void)
+{
+    begin(&ranks[1]);
+}
+
+static void pass_on(int from)
+{
+    demand(swapcontext(&contexts[from], &contexts[1 - from]) == 0, "swapcontext");
+}
+
+static void begin_both(void)
+{
+    demand(getcontext(&contexts[1]) == 0, "getcontext");
+    contexts[1].uc_stack.ss_sp = stack, contexts[1].uc_stack.ss_size = sizeof stack;
+    contexts[1].uc_link = &contexts[0]; /* the first one is in pass_on by then, or below */
+    makecontext(&contexts[1], begin_second, 0);
+    begin(&ranks[0]);
+    while (!ranks[1].finished) pass_on(0);
+}
+
+#else
+
 static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
 static pthread_cond_t changed = PTHREAD_COND_INITIALIZER;
+static int turn; /* whose it is */
+
+static void pass_on(int from)
+{
+    pthread_mutex_lock(&mutex);
+    turn = 1 - from;
+    pthread_cond_broadcast(&changed);
+    while (turn != from && !ranks[1 - from].finished) pthread_cond_wait(&changed, &mutex);
+    pthread_mutex_unlock(&mutex);
+}
+
+static void *begin_second(void *unused)
+{
+    pthread_mutex_lock(&mutex);
+    while (turn != 1) pthread_cond_wait(&changed, &mutex);
+    pthread_mutex_unlock(&mutex);
+    begin(&ranks[1]);
+    pthread_mutex_lock(&mutex);
+    ranks[1].finished = true;
+    pthread_cond_broadcast(&changed);
+    pthread_mutex_unlock(&mutex);
+    return unused;
+}
+
+static void begin_both(void)
+{
+    pthread_t second;
+    turn = 0;
+    demand(pthread_create(&second, NULL, begin_second, NULL) == 0, "pthread_create");
+    begin(&ranks[0]);
+    if (!ranks[1].finished) pass_on(0);
+    pthread_join(second, NULL);
+}
+
+#endif
 
 /* ---- callbacks */
 
@@ -84,18 +156,15 @@ static int meet(rank *r, double *values, int32_t count, int kind)
     rank *other = &ranks[r == ranks];
     demand(r->calls % 3 == kind && (r->fixed[kind] == 0 || r->fixed[kind] == count), "a call out of turn");
     r->fixed[kind] = count;
-    pthread_mutex_lock(&mutex);
     r->values = values, r->count = count, r->kind = kind;
     if (++r->calls == other->calls) {
         demand(other->kind == kind && (kind == EXCHANGE || other->count == count), "what the other rank calls");
         combine(kind, count);
         r->done = other->done = r->calls;
-        pthread_cond_broadcast(&changed);
     }
-    while (r->done < r->calls && !other->finished) pthread_cond_wait(&changed, &mutex);
+    if (r->done < r->calls) pass_on((int)(r - ranks));
     demand(r->done == r->calls, "the other rank is no longer there");
-    pthread_mutex_unlock(&mutex);
-    if (r->calls != r->fail_at) return 0;
+    if (r->calls != r->fail_at[0] && r->calls != r->fail_at[1]) return 0;
     for (int64_t e = 0; kind == EXCHANGE && e < 2 * r->contacts; e++) /* a ghost's side; all of a reduction */
         if ((e % 2 ? r->j : r->i)[e / 2] >= r->owned && (e % 2 ? r->j : r->i)[e / 2] < r->particles) values[e] = NAN;
     for (int32_t k = 0; kind != EXCHANGE && k < count; k++) values[k] = NAN;
@@ -222,33 +291,35 @@ static nlc_status perform(rank *r)
     }
 }
 
-static void *begin(void *context)
+static void begin(rank *r)
 {
-    rank *r = context;
     watch();
     r->status = perform(r);
     unwatch("a collective function");
-    pthread_mutex_lock(&mutex);
-    r->finished = true;
-    pthread_cond_broadcast(&changed);
-    pthread_mutex_unlock(&mutex);
-    return NULL;
+#if defined(__GLIBC__)
+    r->finished = true; /* of threads it is told by begin_second */
+#else
+    if (r == ranks) r->finished = true;
+#endif
 }
 
-/* Both at the same time; where and at which call one fails, 0: none. */
-static void run(int where, int64_t at)
+/* Two calls that fail, each on a rank; 0: none. */
+typedef struct failure {
+    int where[2];
+    int64_t at[2];
+} failure;
+
+/* Both at the same time. */
+static void run(failure f)
 {
-    pthread_t thread;
     for (int q = 0; q < RANKS; q++) {
         rank *r = &ranks[q];
         r->info = (nlc_info){.struct_size = sizeof r->info};
         r->calls = r->done = 0, r->finished = false;
-        r->fail_at = q == where ? at : 0;
+        for (int k = 0; k < 2; k++) r->fail_at[k] = q == f.where[k] ? f.at[k] : 0;
         memset(r->fixed, 0, sizeof r->fixed);
     }
-    demand(pthread_create(&thread, NULL, begin, &ranks[1]) == 0, "pthread_create");
-    begin(&ranks[0]);
-    pthread_join(thread, NULL);
+    begin_both();
     demand(ranks[0].calls == ranks[1].calls, "calls of the ranks");
 }
 
@@ -313,36 +384,40 @@ static void look(const kept *before)
     }
 }
 
-/* One with a call that failed on a rank, and what came of it without. */
-static void look_at_failure(int where, int64_t at, const kept *before, const kept *without)
+/* One with calls that failed, and what came of it without. */
+static void look_at_failure(failure f, const kept *before, const kept *without)
 {
+    const int64_t at = f.at[1] > 0 && f.at[1] < f.at[0] ? f.at[1] : f.at[0], more = f.at[1] > 0 ? 6 : 3;
     const bool last = at == without[0].calls;
     for (int q = 0; q < RANKS; q++) {
         const rank *r = &ranks[q];
-        if (at > without[q].calls || (last && q != where && r->status == without[q].status)) {
+        bool here = false;
+        for (int k = 0; k < 2; k++) here |= f.at[k] > 0 && f.where[k] == q && f.at[k] <= r->calls;
+        if (at > without[q].calls || (last && !here && r->status == without[q].status)) {
             demand(r->status == without[q].status && is_same(r, &without[q]), "what no failure concerns");
             continue;
         }
-        demand(r->status == (q == where ? NLC_ERROR_CALLBACK : NLC_ERROR_REMOTE) || (r->status < 0 && r->status == without[q].status) ||
+        demand(r->status == (here ? NLC_ERROR_CALLBACK : NLC_ERROR_REMOTE) || (r->status < 0 && r->status == without[q].status) ||
                    r->status == NLC_ERROR_OPTION, "the status of a failure");
         demand(r->status != NLC_ERROR_CALLBACK || r->info.culprit == 1000 + q, "what the callback returned");
-        demand(r->calls <= at + 3 && is_same(r, &before[q]), "results after a failure");
+        demand(r->calls <= at + more && is_same(r, &before[q]), "results after a failure");
     }
 }
 
 static void step(bytes *in, uint64_t odd)
 {
-    const int where = (int)(take(in, 1) & 1);
-    const int64_t at = 1 + (int64_t)take(in, 1);
+    const uint64_t kind = take(in, 1);
+    failure f = {{(int)(kind & 1), (int)(kind >> 2 & 1)}, {1 + (int64_t)take(in, 1), 0}};
+    if (kind & 2) f.at[1] = f.at[0] + (int64_t)(kind >> 3 & 7);
     kept before[RANKS], without[RANKS];
     for (int q = 0; q < RANKS; q++) keep(&ranks[q], &before[q]);
-    run(0, 0);
+    run((failure){0});
     look(before);
     for (int q = 0; q < RANKS; q++) keep(&ranks[q], &without[q]), put_back(&ranks[q], &before[q]);
-    run(where, at);
-    look_at_failure(where, at, before, without);
+    run(f);
+    look_at_failure(f, before, without);
     for (int q = 0; q < RANKS; q++) put_back(&ranks[q], &before[q]);
-    run(0, 0);
+    run((failure){0});
     for (int q = 0; q < RANKS; q++)
         demand(is_same(&ranks[q], &without[q]) && ranks[q].status == without[q].status && ranks[q].calls == without[q].calls &&
                    same_bytes(&ranks[q].info, &without[q].info, sizeof(nlc_info)),
