@@ -101,6 +101,7 @@ static void set_compliances(nlc_network *n)
 void nlc_apply_settings(nlc_network *n, const nlc_settings *settings, const double *stiffness)
 {
     n->settings = *settings;
+    n->ranks = (nlc_ranks){.culprit = -1}; /* a failure is that of the callbacks there were */
     nlc_list_straddling(n);
     n->coupling_exponent = n->scale_exponent + nlc_exponent_above(settings->prefactor) + 3;
     set_compliances(n);

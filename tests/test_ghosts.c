@@ -445,6 +445,36 @@ START_TEST(failing_beyond)
 }
 END_TEST
 
+/* Without the callbacks that have failed a network is like any other. */
+START_TEST(alone_after_a_failure)
+{
+    rng g = {8};
+    scene s;
+    ranks w;
+    scene_init(&s);
+    s.options.max_sweeps = 9;
+    scene_lattice(&s, BODY_CENTRED, 3, 1, 0.46, 0.2, 1e-3, &g);
+    share_out(&w, &s, 1, 0, &g);
+    ranks_run(&w, rank_build);
+    rank *r = &w.rank[0];
+    r->fail_at = 4;
+    ranks_run(&w, rank_solve);
+    ck_assert_int_eq(r->status, NLC_ERROR_CALLBACK);
+    r->s.options = s.options;
+    ck_assert_int_eq(nlc_set_options(r->s.network, &r->s.options, 0), NLC_OK);
+    rank_solve(r);
+    ck_assert(r->status & NLC_WARNING_WEAKENED);
+    kept k = keep(r);
+    memset(r->s.nonlocal, 0, (size_t)r->s.contacts * sizeof *r->s.nonlocal);
+    ck_assert_int_eq(scene_build(&r->s), NLC_OK);
+    rank_solve(r);
+    ck_assert(same(r->s.force, k.force, r->s.contacts) && same(r->s.nonlocal, k.nonlocal, r->s.contacts));
+    put_back(r, &k);
+    ranks_free(&w);
+    scene_free(&s);
+}
+END_TEST
+
 /* The next reduction after a call, of which every third one is an exchange. */
 static int64_t next_reduction(int64_t at)
 {
@@ -995,6 +1025,7 @@ int main(void)
     time_limit(t, 120);
     tcase_add_loop_test(t, failing_callbacks, 0, MODELS);
     tcase_add_loop_test(t, failing_beyond, 0, 2);
+    tcase_add_test(t, alone_after_a_failure);
     tcase_add_loop_test(t, failing_twice, 0, 4);
     tcase_add_loop_test(t, odd_numbers, 0, 2 * MODELS);
     tcase_add_loop_test(t, wrong_arguments, 0, MODELS);
