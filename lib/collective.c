@@ -12,11 +12,9 @@ enum { BETWEEN, LAST_BUT_ONE, LAST }; /* where a reduction is in a function */
 
 /*
  * No owner has a larger number.  In the units of an iteration coupling is below 2^200 (solve.c, tangent.c), directions are 2^-90
- * apart, and the rest is for forces and how many there are: squares and their sums are in range.  Without units it is what a sweep
- * may come to (sweep.c), so that two of them can be added.
+ * apart, and the rest is for forces and how many there are: squares and their sums are in range.
  */
 #define MOST 0x1p450
-#define MOST_WITHOUT_UNITS 0x1p1020
 
 /* What is called where nothing is to be told. */
 static double *nothing(nlc_network *n)
@@ -154,7 +152,7 @@ bool nlc_meet(nlc_network *n, nlc_function function, nlc_status status, int64_t 
     for (int k = 0; k < count; k++) values[2 + k] = maxima[k];
     if (!nlc_max_over_ranks(n, values, count + 2)) return false;
     for (int k = 0; k < count; k++) maxima[k] = values[2 + k];
-    n->ranks.most = has_units(n, function) ? MOST : MOST_WITHOUT_UNITS;
+    n->ranks.most = has_units(n, function) ? MOST : NLC_MOST;
     if (values[0] + values[1] > 0) nlc_give_up(n, NLC_ERROR_OPTION);
     return !n->ranks.over;
 }

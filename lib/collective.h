@@ -20,6 +20,8 @@
 #define NLC_SUMS 80  /* values in a reduction of either kind, the first of which says that a rank has failed */
 #define NLC_MAXIMA 12
 
+#define NLC_MOST 0x1p1020 /* what a sweep may come to (displace.c): two of them can be added */
+
 static inline bool nlc_is_shared(const nlc_network *n)
 {
     return n->settings.exchange != 0;

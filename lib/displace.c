@@ -50,10 +50,13 @@ static int closeness(const nlc_network *n, const double *normal)
 /* Whether no intermediate of a sweep of forces of up to top can overflow.  Exact closeness is looked at only where the bound from above fails. */
 static bool in_range(const nlc_network *n, double top, const double *normal)
 {
+    const nlc_shape shape = n->settings.model->shape;
+    const bool sphere = shape == NLC_SHAPE_MOMENTS || shape == NLC_SHAPE_POINT; /* 1/h^3, up to 2^450: sphere.h */
     int e = nlc_exponent_above(top) + n->coupling_exponent +
             nlc_exponent_above(n->unit) + nlc_exponent_above((double)n->contact_count) + 4;
-    if (n->settings.model->shape == NLC_SHAPE_PLACE) e += 10; /* a point that is nearly straight above another */
-    if (n->settings.model->shape == NLC_SHAPE_MOMENTS) e += 60; /* moments of circles that nearly touch */
+    if (shape == NLC_SHAPE_PLACE) e += 10; /* a point that is nearly straight above another */
+    if (shape == NLC_SHAPE_MOMENTS) e += 60; /* tilts and circles that are much too large */
+    if (sphere) return e + 460 <= 1020 || e + 10 + 3 * closeness(n, normal) <= 1020;
     return e + 512 <= 1020 || e + closeness(n, normal) <= 1020;
 }
 
@@ -155,15 +158,21 @@ static nlc_status displace(nlc_network *n, nlc_response response, const double *
     return bad >= 0 ? NLC_ERROR_COINCIDENT : NLC_OK;
 }
 
-/* On ranks an error is that of the network when all of them know of it. */
-static nlc_status exchange(nlc_network *n, nlc_status status, int64_t culprit)
+/*
+ * On ranks an error is that of the network when all of them know of it.  What a circle does to its own contact may be as large as its
+ * particle in any units: an iteration looks at its sign and takes no square of it.
+ */
+static nlc_status exchange(nlc_network *n, nlc_response response, nlc_status status, int64_t culprit)
 {
+    const double most = n->ranks.most;
     if (!nlc_is_shared(n)) return status;
     if (status != NLC_OK) {
         nlc_fail(n, status, culprit);
         for (int64_t e = 0; e < 2 * n->contact_count; e++) n->side[e] = 0;
     }
+    if (n->settings.model->self && response != NLC_OF_CHANGES) n->ranks.most = NLC_MOST;
     nlc_exchange_sides(n, n->side);
+    n->ranks.most = most;
     return NLC_OK;
 }
 
@@ -173,11 +182,11 @@ nlc_status nlc_displace(nlc_network *network, nlc_response response, const doubl
     if (response <= NLC_OF_STATE && (shape == NLC_SHAPE_MOMENTS || shape == NLC_SHAPE_RADIUS)) nlc_set_approach(network, force);
     const double top = network->settings.model->within ? nlc_top(network, force) : 0;
     const nlc_status status = displace(network, response, force, NULL, normal, top, culprit);
-    return exchange(network, status, *culprit);
+    return exchange(network, response, status, *culprit);
 }
 
 nlc_status nlc_displace_weighed(nlc_network *network, double top, const double *normal, int64_t *culprit)
 {
     const nlc_status status = displace(network, NLC_OF_FORCES, network->force, network->share, normal, top, culprit);
-    return exchange(network, status, *culprit);
+    return exchange(network, NLC_OF_FORCES, status, *culprit);
 }

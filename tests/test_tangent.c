@@ -292,6 +292,31 @@ START_TEST(equal_directions)
 }
 END_TEST
 
+/* Close directions and large forces, in every model: finite results or an error, and no exception. */
+START_TEST(close_and_large)
+{
+    for (int32_t model = 0; model < nlc_model_count(); model++)
+        for (int apart = 2; apart < 120; apart += 7)
+            for (int large = 0; large < 1023; large += 33) {
+                scene s;
+                double w[4] = {0}, energy = 0;
+                scene_init(&s);
+                s.options.model = model;
+                const int32_t soft = scene_material(&s, 1e9, 0.3), middle = scene_particle(&s, 1, soft);
+                for (int c = 0; c < 2; c++) scene_contact(&s, middle, scene_particle(&s, 2, soft), 1e-3, 1, ldexp(c, -apart), 0);
+                ck_assert_int_eq(scene_build(&s), NLC_OK);
+                s.force[0] = ldexp(1.5, large), s.force[1] = ldexp(1, large / 2);
+                const nlc_status swept = nlc_sweep(s.network, w, s.force, s.overlap, s.normal, 0);
+                if (swept != NLC_OK) ck_assert(swept == NLC_ERROR_RANGE || swept == NLC_ERROR_COINCIDENT);
+                for (int e = 0; e < 4; e++) ck_assert(isfinite(w[e]));
+                const nlc_status status = nlc_energy(s.network, &energy, s.force, s.overlap, s.normal, 0);
+                if (status < 0) ck_assert(status == NLC_ERROR_RANGE || status == NLC_ERROR_COINCIDENT || status == NLC_ERROR_NO_POTENTIAL);
+                ck_assert(isfinite(energy));
+                scene_free(&s);
+            }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("tangent");
@@ -307,6 +332,7 @@ int main(void)
     tcase_add_test(t, memory_need_not_be_clean);
     tcase_add_test(t, units_do_not_matter);
     tcase_add_test(t, equal_directions);
+    tcase_add_test(t, close_and_large);
     suite_add_tcase(suite, t);
     return run_suite(suite);
 }
