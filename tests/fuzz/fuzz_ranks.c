@@ -162,7 +162,7 @@ static int meet(rank *r, double *values, int32_t count, int kind)
         combine(kind, count);
         r->done = other->done = r->calls;
     }
-    if (r->done < r->calls) pass_on((int)(r - ranks));
+    if (r->done < r->calls && !other->finished) pass_on((int)(r - ranks));
     demand(r->done == r->calls, "the other rank is no longer there");
     if (r->calls != r->fail_at[0] && r->calls != r->fail_at[1]) return 0;
     for (int64_t e = 0; kind == EXCHANGE && e < 2 * r->contacts; e++) /* a ghost's side; all of a reduction */
@@ -408,7 +408,9 @@ static void step(bytes *in, uint64_t odd)
 {
     const uint64_t kind = take(in, 1);
     failure f = {{(int)(kind & 1), (int)(kind >> 2 & 1)}, {1 + (int64_t)take(in, 1), 0}};
+    const int64_t next = f.at[0] % 3 == 0 ? f.at[0] + 2 : f.at[0] + 1; /* reduction; two in a row on one rank are not to be stood */
     if (kind & 2) f.at[1] = f.at[0] + (int64_t)(kind >> 3 & 7);
+    if (f.at[0] % 3 != 1 && f.at[1] == next && f.where[0] == f.where[1]) f.at[1] = 0;
     kept before[RANKS], without[RANKS];
     for (int q = 0; q < RANKS; q++) keep(&ranks[q], &before[q]);
     run((failure){0});
