@@ -264,6 +264,18 @@ START_TEST(other_functions)
                     nlc_assert_abs(r->displacement[e], side[2 * r->contact[e / 2] + (e % 2 ^ r->swapped[e / 2])], 1e-14 * top);
                 }
 
+            double *bound = calloc((size_t)s.particles, sizeof *bound), reach, here, most = 0; /* no call of others is needed */
+            ck_assert_int_eq(nlc_reach(s.network, &reach, bound, s.force, &info), NLC_OK);
+            for (int q = 0; q < w.count; q++) {
+                rank *r = &w.rank[q];
+                ck_assert_int_eq(nlc_reach(r->s.network, &here, r->stiffness, r->s.force, &info), NLC_OK);
+                most = fmax(most, here);
+                for (int64_t p = 0; p < r->s.particles; p++)
+                    nlc_assert_rel(r->stiffness[p], p < r->owned ? bound[r->particle[p]] : 0, 1e-14);
+            }
+            nlc_assert_rel(most, reach, 1e-14); /* sums in another order */
+            free(bound);
+
             status = nlc_energy(s.network, &energy, s.force, s.overlap, s.normal, &info);
             ranks_run(&w, rank_energy);
             agree(&w);
@@ -437,6 +449,42 @@ START_TEST(failing_beyond)
     agree(&w);
     ck_assert(w.rank[0].status & NLC_WARNING_WEAKENED);
     const int64_t calls = rank_calls(&w.rank[0]);
+    for (int q = 0; q < RANKS; q++) put_back(&w.rank[q], &k[q]);
+    for (int64_t at = 1; at < calls; at += 1 + (int64_t)rng_below(&g, 1 + (uint64_t)calls / 30))
+        fail_once(&w, rank_solve, at, 1 + (unsigned)rng_below(&g, 6), false);
+    for (int64_t at = calls - 12; at < calls; at++) fail_once(&w, rank_solve, at, 1 + (unsigned)rng_below(&g, 6), false);
+    ranks_free(&w);
+    scene_free(&s);
+}
+END_TEST
+
+/*
+ * A ball with three contacts .01 rad apart, where a solve loses its way and ends by applying the load in steps (310 sweeps with the portable
+ * code; roundings decide); beside it a pair of balls on two other ranks.  Calls fail that have nothing to do with it.
+ */
+START_TEST(failing_in_load_steps)
+{
+    static const double overlap[] = {0.0231556564156864, 0.0223094445248736, 0.0087343488652229, -0.0077720017073664};
+    static const double n[][3] = {{-0.25977382853659, 0.829131630675211, -0.49503363221230}, {-0.552406662383053, -0.632992270874211, 0.542372256267156},
+                                  {-0.540418760671444, -0.627446357183499, 0.560587755816605}, {-0.538097802732749, -0.618323049466025, 0.572824022884187}};
+    rng g = {6};
+    scene s;
+    ranks w;
+    kept k[RANKS];
+    scene_init(&s);
+    const int32_t m = scene_material(&s, 1, 0.49239873962948211), rigid = scene_material(&s, INFINITY, 0);
+    for (int b = 0; b < 3; b++) scene_particle(&s, 1, m);
+    const int32_t wall = 3 + scene_wall(&s, rigid);
+    for (int c = 0; c < 4; c++) scene_contact(&s, 0, c == 1 ? 0 : wall, overlap[c], n[c][0], n[c][1], n[c][2]);
+    scene_contact(&s, 1, 2, 0.01, 1, 0, 0);
+    s.options.simd = NLC_SIMD_GENERIC;
+    ranks_init(&w, &s, (const int[]){0, 1, 2}, RANKS, &g);
+    ranks_run(&w, rank_build);
+    for (int q = 0; q < RANKS; q++) k[q] = keep(&w.rank[q]);
+    ranks_run(&w, rank_solve);
+    agree(&w);
+    const int64_t calls = rank_calls(&w.rank[0]);
+    if (verbose()) printf("load steps: status %d, %jd sweeps, %jd calls\n", w.rank[0].status, (intmax_t)w.rank[0].info.sweeps, (intmax_t)calls);
     for (int q = 0; q < RANKS; q++) put_back(&w.rank[q], &k[q]);
     for (int64_t at = 1; at < calls; at += 1 + (int64_t)rng_below(&g, 1 + (uint64_t)calls / 30))
         fail_once(&w, rank_solve, at, 1 + (unsigned)rng_below(&g, 6), false);
@@ -646,6 +694,14 @@ static void no_info(rank *r)
     r->status = nlc_solve(s->network, s->force, s->nonlocal, s->overlap, s->normal, &info);
 }
 
+static void no_info_energy(rank *r)
+{
+    scene *s = &r->s;
+    nlc_info info = {.struct_size = r->number == 1 ? 3 : sizeof info};
+    r->info.culprit = -1;
+    r->status = nlc_energy(s->network, &r->energy, s->force, s->overlap, s->normal, &info);
+}
+
 static void no_forces(rank *r)
 {
     scene *s = &r->s;
@@ -683,6 +739,7 @@ START_TEST(wrong_arguments)
     const int q = 1;
     demand_error(&w, no_forces, 1, NLC_ERROR_NULL, 1);
     demand_error(&w, no_info, 1, NLC_ERROR_STRUCT_SIZE, -1);
+    if (has_energy(&s)) demand_error(&w, no_info_energy, 1, NLC_ERROR_STRUCT_SIZE, -1);
     (void)q;
     ranks_run(&w, rank_solve); /* it was not the network's fault */
     agree(&w);
@@ -695,6 +752,13 @@ END_TEST
 static void set_tolerance(rank *r)
 {
     r->s.options.tolerance = r->number == 1 ? 1e-4 : 1e-8;
+    r->status = nlc_set_options(r->s.network, &r->s.options, 0);
+}
+
+static void set_stiffness(rank *r)
+{
+    static const double hard[] = {1e60, 1e60, 1e60}, soft[] = {1e-60, 1e-60, 1e-60};
+    r->s.options.stiffness = r->number ? soft : hard;
     r->status = nlc_set_options(r->s.network, &r->s.options, 0);
 }
 
@@ -730,6 +794,22 @@ START_TEST(other_errors)
     }
     ranks_run(&w, rank_solve);
     for (int q = 0; q < RANKS; q++) ck_assert(w.rank[q].status < 0);
+    ranks_free(&w);
+    scene_free(&s);
+
+    /* overlaps on one, stiffnesses on the other, each of which would do */
+    scene_init(&s);
+    const int32_t m = scene_material(&s, 1e9, 0.3);
+    for (int k = 0; k < 4; k++) scene_particle(&s, 1, m);
+    for (int k = 0; k < 3; k++) scene_contact(&s, k, k + 1, 1, 1, 0, 0);
+    rng g = {7};
+    ranks_init(&w, &s, (const int[]){0, 0, 1, 1}, 2, &g);
+    ranks_run(&w, rank_build);
+    ranks_run(&w, set_stiffness);
+    for (int q = 0; q < 2; q++)
+        for (int64_t c = 0; c < w.rank[q].s.contacts; c++) w.rank[q].s.overlap[c] = q ? 0x1p400 : 0x1p-100;
+    ranks_run(&w, rank_solve);
+    for (int q = 0; q < 2; q++) ck_assert(w.rank[q].status == NLC_ERROR_RANGE && w.rank[q].info.culprit == -1);
     ranks_free(&w);
     scene_free(&s);
 
@@ -1028,6 +1108,7 @@ int main(void)
     tcase_add_test(t, alone_after_a_failure);
     tcase_add_loop_test(t, failing_twice, 0, 4);
     tcase_add_loop_test(t, odd_numbers, 0, 2 * MODELS);
+    tcase_add_test(t, failing_in_load_steps);
     tcase_add_loop_test(t, wrong_arguments, 0, MODELS);
     tcase_add_test(t, other_errors);
     suite_add_tcase(suite, t);
