@@ -372,6 +372,42 @@ START_TEST(units)
 }
 END_TEST
 
+/* Forces at which it takes a look at how close contacts come to tell that nothing overflows: the same bits. */
+START_TEST(huge_forces)
+{
+    rng g = {55};
+    scene s;
+    planet(&s, (kind)_i, 300, 1e-6, &g);
+    double *force = random_forces(&s, &g), *v = swept(&s, force);
+    for (int64_t c = 0; c < s.contacts; c++) force[c] *= 0x1p700;
+    double *w = swept(&s, force);
+    for (int64_t e = 0; e < 2 * s.contacts; e++) nlc_assert_same(w[e], v[e] * 0x1p700);
+    free(force), free(v), free(w);
+    scene_free(&s);
+}
+END_TEST
+
+/* A rigid sphere yields nowhere, however many contacts it has: on each soft one there is one force, and all are those of Hertz. */
+START_TEST(rigid_centre)
+{
+    rng g = {56};
+    scene s;
+    nlc_info info = {.struct_size = sizeof info};
+    planet(&s, EVEN, 400, 1e-6, &g);
+    s.rows[0].young = INFINITY;
+    for (int64_t k = 1; k < s.particles; k++) s.material[k] = 1;
+    s.options.model = _i;
+    double *force = random_forces(&s, &g), *w = swept(&s, force);
+    for (int64_t c = 0; c < s.contacts; c++) ck_assert(w[side_of(&s, c)] == 0);
+    nlc_assert_quiet(ck_assert_int_ge(scene_solve(&s, &info), 0));
+    if (s.options.model != NLC_MODEL_SPHERE) /* whose contacts act on themselves */
+        for (int64_t c = 0; c < s.contacts; c++)
+            nlc_assert_rel(s.force[c], nlc_hertz_force((double)scene_stiffness(&s, c), s.overlap[c]), 1e-14);
+    free(force), free(w);
+    scene_free(&s);
+}
+END_TEST
+
 START_TEST(exchange_of_sides)
 {
     rng g = {48};
@@ -507,8 +543,8 @@ START_TEST(coincidences)
         planet(&s, round % 3 ? EVEN : POLE, count, 1e-2, &g);
         s.options.model = round < 6 ? NLC_MODEL_GONZALEZ_CUITINO : NLC_MODEL_SPHERE;
         int64_t first = s.contacts;
-        for (int copies = 0; copies < 3; copies++) { /* the culprit is the first that has an earlier one */
-            const int64_t c = 1 + (int64_t)rng_below(&g, (uint64_t)s.contacts - 1), d = (int64_t)rng_below(&g, (uint64_t)c);
+        for (int copies = 0; copies < (round % 4 == 3 ? 60 : 3); copies++) { /* 60: more in one place than a leaf of the tree holds; the culprit is the first that has an earlier one */
+            const int64_t c = 1 + (int64_t)rng_below(&g, (uint64_t)s.contacts - 1), d = round % 4 == 3 ? 0 : (int64_t)rng_below(&g, (uint64_t)c);
             const double sign = (s.i[c] == 0) == (s.i[d] == 0) ? 1 : -1;
             for (int x = 0; x < 3; x++) s.normal[3 * c + x] = sign * s.normal[3 * d + x];
         }
@@ -562,6 +598,13 @@ START_TEST(closest)
         nlc_assert_quiet(ck_assert(nlc_least_apart(&found, s.network, s.normal, 0, size_of, s.overlap, 4)));
         if (least >= 0) nlc_assert_same(found, least);
         else ck_assert(found < 0);
+        for (int c = 0; c < count; c++) s.overlap[c] = 0;
+        int64_t place;
+        nlc_assert_quiet(ck_assert(nlc_least_apart(&found, s.network, s.normal, 0, size_of, s.overlap, 4)));
+        nlc_assert_quiet(ck_assert(nlc_later_below(&place, s.network, s.normal, 0, found)));
+        ck_assert_int_eq(place, -1); /* none is closer than the closest, */
+        nlc_assert_quiet(ck_assert(nlc_later_below(&place, s.network, s.normal, 0, found * 1.0001)));
+        ck_assert(place > 0 && place < count); /* which is there */
         *(least < 0 ? &overlapping : &apart) += 1;
         scene_free(&s);
     }
@@ -643,6 +686,8 @@ int main(void)
     tcase_add_test(t, lengths);
     tcase_add_test(t, own_images);
     tcase_add_loop_test(t, units, 0, KINDS);
+    tcase_add_loop_test(t, huge_forces, 0, CASCADE);
+    tcase_add_loop_test(t, rigid_centre, 0, 6);
     tcase_add_loop_test(t, exchange_of_sides, 0, KINDS);
     tcase_add_test(t, loops_of_the_host);
     tcase_add_loop_test(t, solutions, 0, 8);

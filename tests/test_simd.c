@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "../lib/block.h"
+#include "../lib/bound.h"
 #include "../lib/iteration.h"
 #include "../lib/network.h"
 #include "scene.h"
@@ -386,6 +387,8 @@ START_TEST(blocks)
         shown += !n->changed[k];
     }
     ck_assert(!v || shown > 30);
+    nlc_bound none = {INFINITY, -1, 0};
+    nlc_assert_quiet(ck_assert(!nlc_bound_below(n, s.normal, 0, &none))); /* nothing that is coupled is below 0 */
     free(root);
     scene_free(&s);
 }
