@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../lib/small.h"
 #include "scene.h"
 
 #define TOLERANCE 1e-13
@@ -210,6 +211,53 @@ START_TEST(symmetric_crowd)
 }
 END_TEST
 
+/*
+ * As many contacts, all but two opposite ones of which carry next to nothing: lambda is that of the two, D = 3/2 k (P/k)^(1/3) times what a
+ * unit force displaces on the other side.  (Lanczos' method comes to an end after two steps.)
+ */
+START_TEST(crowd_of_two)
+{
+    const int z = 80;
+    const double E = 1e6, nu = 0.3, force = 3;
+    scene s;
+    nlc_info info = {.struct_size = sizeof info};
+    scene_init(&s);
+    scene_particle(&s, 1, scene_material(&s, E, nu));
+    const int32_t wall = 1 + scene_wall(&s, scene_material(&s, INFINITY, 0));
+    scene_contact(&s, 0, wall, 0, 0, 0, 1);
+    scene_contact(&s, 0, wall, 0, 0, 0, -1);
+    for (int k = 2; k < z; k++) { /* a spiral of evenly spread directions */
+        const double h = 1 - 2 * (k - 0.5) / z, r = sqrt(1 - h * h), phi = 3.14159265358979324 * (1 + sqrt(5)) * k;
+        scene_contact(&s, 0, wall, 0, r * cos(phi), r * sin(phi), h);
+    }
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    const double D = 1.5 * (double)scene_stiffness(&s, 0) * cbrt(force / (double)scene_stiffness(&s, 0));
+    const double lambda = D * fabs(nlc_nonlocal_displacement(1, acos(-1), 1, E, nu));
+    for (int p = 40; p < 300; p += 20) {
+        double K[1];
+        for (int k = 0; k < z; k++) s.force[k] = k < 2 ? force : pow(10, -p);
+        nlc_assert_quiet(ck_assert_int_eq(nlc_tangent_bound(s.network, K, s.force, s.normal, &info), NLC_OK));
+        ck_assert(info.lambda_upper >= lambda * (1 - 1e-12) && info.lambda_upper <= lambda * (1 + 1e-6));
+    }
+    scene_free(&s);
+}
+END_TEST
+
+/* The largest eigenvalue of tridiagonal matrices: 2 cos(pi / (n + 1)) of ones beside nothing; of a multiple of 1; of nothing. */
+START_TEST(tridiagonal)
+{
+    double a[64], b[64];
+    for (int n = 1; n <= 64; n++) {
+        for (int k = 0; k < n; k++) a[k] = 0, b[k] = 1;
+        nlc_assert_abs(nlc_largest_tridiagonal(a, b, n), 2 * cos(acos(-1) / (n + 1)), 1e-14); /* of a norm of 2 */
+        for (int k = 0; k < n; k++) a[k] = -3, b[k] = 0;
+        nlc_assert_quiet(nlc_assert_rel(nlc_largest_tridiagonal(a, b, n), -3, 1e-12));
+        for (int k = 0; k < n; k++) a[k] = 0;
+        nlc_assert_quiet(nlc_assert_same(nlc_largest_tridiagonal(a, b, n), 0));
+    }
+}
+END_TEST
+
 /* What the memory held before is of no importance. */
 START_TEST(memory_need_not_be_clean)
 {
@@ -329,6 +377,8 @@ int main(void)
     tcase_add_loop_test(t, tangent_is_the_derivative, 0, SCENES);
     tcase_add_loop_test(t, bound_of_the_stiffness, 0, SCENES);
     tcase_add_test(t, symmetric_crowd);
+    tcase_add_test(t, crowd_of_two);
+    tcase_add_test(t, tridiagonal);
     tcase_add_test(t, memory_need_not_be_clean);
     tcase_add_test(t, units_do_not_matter);
     tcase_add_test(t, equal_directions);

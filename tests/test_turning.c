@@ -106,7 +106,7 @@ START_TEST(sides_and_units)
     place(&s, &h);
     ck_assert_int_eq(nlc_assemble_turning(s.network, F[0], 0, s.force, s.overlap, s.normal, NULL), NLC_OK);
     for (int64_t c = 0; c < s.contacts; c++) {
-        if (s.j[c] >= SPHERES || c % 2) continue;
+        if (c % 2) continue;
         const int32_t i = s.i[c];
         s.i[c] = s.j[c];
         s.j[c] = i;
@@ -177,6 +177,14 @@ START_TEST(what_is_refused)
     s.options.model = NLC_MODEL_HERTZ;
     ck_assert_int_eq(nlc_set_options(n, &s.options, NULL), NLC_OK);
     REFUSED(nlc_assemble_turning(n, F[0], 0, s.force, s.overlap, s.normal, &info), NLC_OK, -1); /* nothing is coupled */
+    scene_free(&s);
+    scene_init(&s); /* distances of centres are beyond double */
+    const int32_t m = scene_material(&s, 1e-5, 0.3);
+    for (int k = 0; k < 3; k++) scene_particle(&s, 1.7e308, m);
+    for (int k = 0; k < 2; k++) scene_contact(&s, k, k + 1, 1, 1, k, 0);
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    s.force[0] = s.force[1] = 1;
+    REFUSED(nlc_assemble_turning(s.network, F[0], 0, s.force, s.overlap, s.normal, &info), NLC_ERROR_RANGE, -1);
     scene_free(&s);
 }
 END_TEST
