@@ -566,6 +566,27 @@ START_TEST(coincidences)
 }
 END_TEST
 
+/* Directions at 2^-c from a pole: from c = 91 on closer to the one before than 2^-90, where two count as one, and too many to tell apart. */
+START_TEST(ever_closer)
+{
+    scene s;
+    nlc_info info = {.struct_size = sizeof info};
+    double w[400], force[200];
+    scene_init(&s);
+    const int32_t m = scene_material(&s, 1e9, 0.3);
+    scene_particle(&s, 1, m);
+    for (int c = 0; c < 200; c++) {
+        const double v[3] = {ldexp(1, -c), 0, 1};
+        scene_contact(&s, 0, scene_particle(&s, 0.1, m), 1e-6, v[0], v[1], v[2]);
+        force[c] = 1;
+    }
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    nlc_assert_quiet(ck_assert_int_eq(nlc_sweep(s.network, w, force, 0, s.normal, &info), NLC_ERROR_COINCIDENT));
+    ck_assert_int_eq(info.culprit, 91);
+    scene_free(&s);
+}
+END_TEST
+
 static double size_of(const nlc_network *n, int64_t contact, int64_t particle, const double *overlap)
 {
     (void)n, (void)particle;
@@ -692,6 +713,7 @@ int main(void)
     tcase_add_test(t, loops_of_the_host);
     tcase_add_loop_test(t, solutions, 0, 8);
     tcase_add_test(t, coincidences);
+    tcase_add_test(t, ever_closer);
     tcase_add_loop_test(t, closest, 0, KINDS);
     tcase_add_test(t, wide_circles);
     tcase_add_loop_test(t, work_grows_like_the_contacts, 0, 3);
