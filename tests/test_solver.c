@@ -154,6 +154,43 @@ START_TEST(crowd_of_close_pairs)
 END_TEST
 
 /*
+ * Balls with contacts beside each other, at random: of some twenty thousand the six that take longest, load steps and hundreds of sweeps.
+ * All end, with forces that satisfy the equations where it is not said that they do not.
+ */
+START_TEST(hardest_of_many)
+{
+    static const uint64_t seeds[] = {172, 345, 851, 2693, 3460, 19952};
+    static const int32_t models[] = {NLC_MODEL_GONZALEZ_CUITINO, NLC_MODEL_GONZALEZ_CUITINO, NLC_MODEL_GONZALEZ_CUITINO,
+                                     NLC_MODEL_POINT_FORCE,      NLC_MODEL_SPHERE,           NLC_MODEL_HALF_SPACE};
+    rng g = {seeds[_i]};
+    scene s;
+    scene_init(&s);
+    const int32_t m = scene_material(&s, 1, rng_uniform(&g, 0.2, 0.5)), rigid = scene_material(&s, INFINITY, 0);
+    const int balls = 1 + (int)rng_below(&g, 4);
+    for (int k = 0; k < balls; k++) scene_particle(&s, 1, m);
+    const int32_t wall = balls + scene_wall(&s, rigid);
+    const int z = 3 + (int)rng_below(&g, 12);
+    const double apart = pow(10, -rng_uniform(&g, 0, 3)), size = pow(10, -rng_uniform(&g, 0.3, 2.5));
+    s.options.model = models[rng_below(&g, 6)];
+    double d[3] = {0};
+    for (int k = 0; k < balls; k++)
+        for (int c = 0; c < z; c++) {
+            double n[3];
+            rng_unit(&g, n);
+            const bool beside = rng_below(&g, 2) && c > 0;
+            for (int x = 0; x < 3; x++) d[x] = beside ? d[x] + apart * n[x] : n[x];
+            const int64_t other = rng_below(&g, 2) ? wall : (k + 1 + (balls > 1 ? (int64_t)rng_below(&g, (uint64_t)balls - 1) : 0)) % balls;
+            scene_contact(&s, k, (int32_t)other, size * rng_uniform(&g, -0.5, 1), d[0], d[1], d[2]);
+        }
+    const trial r = solve_load(&s, 1, 1e-8);
+    if (verbose()) printf("hard scene %d: status %d, %d sweeps\n", (int)seeds[_i], r.status, (int)r.info.sweeps);
+    ck_assert_int_ge(r.status, 0);
+    if (!(r.status & (NLC_WARNING_NOT_CONVERGED | NLC_WARNING_WEAKENED))) ck_assert(recomputed_residual(&s, 1) <= 2e-8);
+    scene_free(&s);
+}
+END_TEST
+
+/*
  * A crystal up to the end of its stable branch (.172), to a tolerance that no rounding allows: forces to 1e-10 of those to 1e-10, or
  * where there is no telling whether it is stable those of a coupling weakened by next to nothing.
  */
@@ -719,6 +756,7 @@ int main(void)
     tcase_add_test(t, close_pairs);
     tcase_add_test(t, nearly_one_place);
     tcase_add_loop_test(t, crowd_of_close_pairs, 0, 2);
+    tcase_add_loop_test(t, hardest_of_many, 0, 6);
     tcase_add_test(t, rounding_at_the_end);
     tcase_add_test(t, slow_compression);
     tcase_add_test(t, start_far_off);
