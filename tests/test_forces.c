@@ -446,6 +446,39 @@ START_TEST(what_is_open_is_left_out)
 }
 END_TEST
 
+/* A centre that is 1e50 to 1e320 times as hard as what is around it is as good as rigid: the same forces, to the last bits. */
+START_TEST(hardest_is_rigid)
+{
+    for (int model = 0; model < 6; model++)
+        for (int ratio = 50; ratio <= 320; ratio += 45) {
+            double force[12] = {0};
+            for (int rigid = 1; rigid >= 0; rigid--) {
+                scene s;
+                nlc_info info = {.struct_size = sizeof info};
+                scene_init(&s);
+                s.options.model = model;
+                s.options.tolerance = 1e-12;
+                const int32_t soft = scene_material(&s, 1e-150, 0.3);
+                const int32_t hard = scene_material(&s, rigid ? INFINITY : pow(10, ratio - 150), 0.3), wall_too = scene_material(&s, INFINITY, 0);
+                scene_particle(&s, 1, hard);
+                for (int k = 0; k < 6; k++) scene_particle(&s, 1, soft);
+                const int32_t wall = (int32_t)s.particles + scene_wall(&s, wall_too);
+                for (int k = 0; k < 6; k++) {
+                    const double n[3] = {(k == 0) - (k == 1), (k == 2) - (k == 3), (k == 4) - (k == 5)};
+                    scene_contact(&s, 0, k + 1, 0.01 + 1e-3 * k, n[0], n[1], n[2]);
+                    scene_contact(&s, k + 1, wall, 0.01, n[0], n[1], n[2]);
+                }
+                const nlc_status status = scene_solve(&s, &info);
+                ck_assert_int_eq(status & ~NLC_WARNING_CLOSE, NLC_OK);
+                for (int c = 0; c < 12; c++)
+                    if (rigid) force[c] = s.force[c];
+                    else nlc_assert_rel(s.force[c], force[c], 3e-12);
+                scene_free(&s);
+            }
+        }
+}
+END_TEST
+
 /* One compressed pair among a thousand grains that nearly touch: nothing else is looked at. */
 START_TEST(what_cannot_move_is_left_out)
 {
@@ -593,6 +626,7 @@ static Suite *forces(void)
     tcase_add_loop_test(t, loose_scenes_agree_with_long_double, 0, 2);
     tcase_add_test(t, what_cannot_move_is_left_out);
     tcase_add_test(t, what_is_open_is_left_out);
+    tcase_add_test(t, hardest_is_rigid);
     tcase_add_test(t, only_what_moves);
     tcase_add_loop_test(t, only_what_moves_in_a_chain, 0, 3);
     tcase_add_test(t, what_is_not_in_use);

@@ -427,6 +427,37 @@ START_TEST(soft_and_open)
 }
 END_TEST
 
+/*
+ * A ball of SPHERE between two walls that touches a third one 1e-60 to 1e-140 times as soft, at any angle to the first: the two have the
+ * forces that they have without it.  Of its own, next to nothing beside the tolerance, little is known.
+ */
+START_TEST(softest_on_a_sphere)
+{
+    for (int third = 0; third < 20; third++)
+        for (double ratio = 1e-60; ratio > 1e-145; ratio *= 1e-20) {
+            double force[2] = {0}, stiffness[3] = {1e9, 1e9, 1e9 * ratio};
+            for (int count = 2; count < 4; count++) {
+                scene s;
+                nlc_info info = {.struct_size = sizeof info};
+                scene_init(&s);
+                s.options.model = NLC_MODEL_SPHERE;
+                s.options.stiffness = stiffness;
+                s.options.tolerance = 1e-10;
+                const double angle = 0.2 + 0.15 * third;
+                const int32_t m = scene_material(&s, 1e9, 0.3), p = scene_particle(&s, 1, m), wall = 1 + scene_wall(&s, scene_material(&s, INFINITY, 0));
+                for (int c = 0; c < count; c++)
+                    scene_contact(&s, p, wall, 0.02, c == 2 ? cos(angle) : 1 - 2 * c, c == 2 ? sin(angle) : 0, 0);
+                nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, &info) & ~NLC_WARNING_CLOSE, NLC_OK));
+                for (int c = 0; c < 2; c++)
+                    if (count == 2) force[c] = s.force[c];
+                    else nlc_assert_rel(s.force[c], force[c], 2e-10);
+                if (count == 3) ck_assert(s.force[2] >= 0 && s.force[2] <= nlc_hertz_force(stiffness[2], 0.1));
+                scene_free(&s);
+            }
+        }
+}
+END_TEST
+
 /* A start of the smallest number there is where nothing overlaps, and forces would be huge: it is nothing, and overflows nothing. */
 START_TEST(nothing_to_start_from)
 {
@@ -768,6 +799,7 @@ int main(void)
     tcase_add_loop_test(t, touches_with_the_last_sweep, 0, 2);
     tcase_add_test(t, idle_candidates_in_one_place);
     tcase_add_loop_test(t, soft_and_open, 0, 2);
+    tcase_add_test(t, softest_on_a_sphere);
     tcase_add_test(t, nothing_to_start_from);
     tcase_add_loop_test(t, ring_has_its_bound, 0, 6);
     tcase_add_loop_test(t, accepted_starts, 0, 8);
