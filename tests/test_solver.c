@@ -191,12 +191,12 @@ START_TEST(hardest_of_many)
 END_TEST
 
 /*
- * A crystal up to the end of its stable branch (.172), to a tolerance that no rounding allows: forces to 1e-10 of those to 1e-10, or
- * where there is no telling whether it is stable those of a coupling weakened by next to nothing.
+ * A crystal up to the end of its stable branch (.172), to a tolerance that no rounding allows: the forces found are within 1e-10
+ * of those to a tolerance of 1e-10; but where weakening begins it may be said not to have converged, and is up to 1 % off.
  */
 START_TEST(rounding_at_the_end)
 {
-    for (double eps = 0.166; eps < 0.1725; eps += 0.0002) {
+    for (double eps = 0.166; eps < 0.1725; eps += eps > 0.17195 && eps < 0.17225 ? 2e-6 : 0.0002) {
         scene s;
         nlc_info info = {.struct_size = sizeof info};
         scene_init(&s);
@@ -209,8 +209,9 @@ START_TEST(rounding_at_the_end)
         cold(&s);
         const nlc_status limit = scene_solve(&s, &info);
         if (verbose()) printf("eps %.4f: status %d, %d, forces differ by %.1e\n", eps, status, limit, fabs(s.force[0] - force) / force);
-        if (status == NLC_OK) ck_assert((limit & ~NLC_WARNING_ROUNDING) == NLC_OK && fabs(s.force[0] - force) <= 1e-10 * force);
-        else ck_assert(limit & NLC_WARNING_WEAKENED);
+        ck_assert_int_eq(status & ~(NLC_WARNING_CLOSE | NLC_WARNING_WEAKENED), NLC_OK);
+        if (!(status & NLC_WARNING_WEAKENED)) ck_assert_int_eq(limit & ~NLC_WARNING_ROUNDING, status);
+        if (!(limit & NLC_WARNING_NOT_CONVERGED)) ck_assert(fabs(s.force[0] - force) <= 1e-10 * force);
         scene_free(&s);
     }
 }
