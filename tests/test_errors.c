@@ -444,6 +444,14 @@ START_TEST(stiffest_and_softest)
     nlc_assert_rel(out[0], 1.5e9 * cbrt(3e4 / 1e9) * 1e-3, 1e-14);
     ck_assert(out[1] >= 0 && out[1] < 1e-190);
 
+    /* all that moves is open, but for next to nothing */
+    stiffness[1] = 1e9;
+    force[0] = 0, force[1] = 3e4;
+    overlap[0] = 1, overlap[1] = 1e-150;
+    ck_assert_int_eq(nlc_set_options(s.network, &s.options, &info), NLC_OK);
+    nlc_assert_quiet(ck_assert_int_eq(nlc_tangent(s.network, out, overlap, force, s.normal, &info), NLC_OK));
+    ck_assert(out[0] == 0 && out[1] >= 0 && out[1] <= 1.1 * 1.5e9 * cbrt(3e4 / 1e9) * 1e-150);
+
     /* Hertz's stiffness is beyond double, which does not matter as long as others are given */
     scene_free(&s);
     scene_init(&s);
