@@ -486,7 +486,7 @@ START_TEST(failing_in_load_steps)
     const int64_t calls = rank_calls(&w.rank[0]);
     if (verbose()) printf("load steps: status %d, %jd sweeps, %jd calls\n", w.rank[0].status, (intmax_t)w.rank[0].info.sweeps, (intmax_t)calls);
     for (int q = 0; q < RANKS; q++) put_back(&w.rank[q], &k[q]);
-    for (int64_t at = 1; at < calls; at += 1 + (int64_t)rng_below(&g, 1 + (uint64_t)calls / 30))
+    for (int64_t at = 1; at < calls; at += 1 + (int64_t)rng_below(&g, 1 + (uint64_t)calls / 4))
         fail_once(&w, rank_solve, at, 1 + (unsigned)rng_below(&g, 6), false);
     ranks_free(&w);
     scene_free(&s);
