@@ -569,14 +569,17 @@ END_TEST
 /* Directions at 2^-c from a pole: from c = 91 on closer to the one before than 2^-90, where two count as one, and too many to tell apart. */
 START_TEST(ever_closer)
 {
+    enum { COUNT = 3000 }; /* so many that there is room for a box on each level */
+    static double w[2 * COUNT], force[COUNT];
+    rng g = {57};
     scene s;
     nlc_info info = {.struct_size = sizeof info};
-    double w[400], force[200];
     scene_init(&s);
     const int32_t m = scene_material(&s, 1e9, 0.3);
     scene_particle(&s, 1, m);
-    for (int c = 0; c < 200; c++) {
-        const double v[3] = {ldexp(1, -c), 0, 1};
+    for (int c = 0; c < COUNT; c++) {
+        double v[3] = {ldexp(1, -c), 0, 1};
+        if (c >= 200) direction(v, EVEN, c, COUNT, &g);
         scene_contact(&s, 0, scene_particle(&s, 0.1, m), 1e-6, v[0], v[1], v[2]);
         force[c] = 1;
     }

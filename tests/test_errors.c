@@ -434,6 +434,9 @@ START_TEST(stiffest_and_softest)
     ck_assert_int_eq(scene_build(&s), NLC_OK);
     nlc_assert_quiet(ck_assert_int_eq(nlc_tangent(s.network, out, overlap, force, s.normal, &info), NLC_ERROR_RANGE));
     nlc_assert_quiet(ck_assert_int_eq(nlc_energy(s.network, &energy, force, overlap, s.normal, &info), NLC_ERROR_RANGE));
+    for (int c = 0; c < 2; c++) force[c] = 0x1p1002, overlap[c] = 1e-10; /* energies would do, a sum of forces may not */
+    nlc_assert_quiet(ck_assert_int_eq(nlc_energy(s.network, &energy, force, overlap, s.normal, &info), NLC_ERROR_RANGE));
+    for (int c = 0; c < 2; c++) overlap[c] = 1e-3;
     ck_assert(out[0] == 7 && out[1] == 7 && energy == 7);
 
     /* two pairs, one of them too soft beside the other to be seen: dP = 3/2 k (P/k)^(1/3) dx, and nothing */
