@@ -554,7 +554,7 @@ enum {
 typedef struct nlc_options {
     size_t struct_size;      /* sizeof(nlc_options) */
     int32_t model;           /* NLC_MODEL_..., see nlc_model_info */
-    int32_t method;          /* NLC_METHOD_... */
+    int32_t method;          /* NLC_METHOD_...: how much memory a network takes, too, see nlc_network_size */
     double tolerance;        /* of the forces, see nlc_solve; 0: 1e-8; more than 1 counts as 1 */
     int64_t max_sweeps;      /* of a solve, which never does more (on ranks 2, where this is 1); 0: 1000 */
     double prefactor;        /* G of NLC_MODEL_HALF_SPACE, 2^-100 to 2^100; other models do not look at it; 0: 1 */
@@ -645,7 +645,16 @@ typedef struct nlc_network nlc_network;
  *
  * particles       only struct_size, count, material_count and wall_count are read
  * contact_count   contacts, candidates included, >= 0
- * options         or NULL; only struct_size is read
+ * options         or NULL; only struct_size, model, method, points and exchange are read
+ *
+ * With the default options a contact takes 377 bytes and a particle 137.  NLC_METHOD_FIXED_POINT and NLC_MODEL_HERTZ work with fewer
+ * arrays: 72 and 44, which in large packings with 6 to 9 contacts on a particle is 87 to 82 bytes a contact.  Add to these
+ *     8 bytes a contact with NLC_MODEL_LOVE, 16 with NLC_MODEL_HALF_SPACE at deformed contact points, 24 with NLC_MODEL_SPHERE
+ *     24 a contact and 8 a particle with callbacks for ranks
+ * and to all but NLC_MODEL_HERTZ's 68 bytes a contact for particles with very many of them, 12 MB at most.
+ *
+ * Refused for want of memory: nlc_set_options to options that need more than nlc_network_init was given;
+ * nlc_tangent and nlc_tangent_bound of a coupled model without memory for the default options, with which everything is possible.
  * Returns a size that does not depend on anything else; 0 if an argument is invalid or the size overflows.
  */
 NLC_API size_t nlc_network_size(const nlc_particles *particles, int64_t contact_count, const nlc_options *options);
@@ -655,8 +664,9 @@ NLC_API size_t nlc_network_size(const nlc_particles *particles, int64_t contact_
  * changes.
  *
  * network         out: the network, at the start of memory.  It is never freed; it must not be moved or copied.
- * memory          at least nlc_network_size bytes, aligned to 8; owned by the caller, to be kept while the network is used
- * memory_size     bytes
+ * memory          at least nlc_network_size bytes for these options, aligned to 8; owned by the caller, to be kept while the
+ *                 network is used
+ * memory_size     bytes; with as many as other options need the network can be given those later, see nlc_set_options
  * particles       see nlc_particles
  * i, j            [contact_count] the two bodies of each contact, in any order: a particle 0 ... count-1 or a wall count ...
  *                 count+wall_count-1.  i = j is a particle that touches its own periodic image.  A pair may occur any
@@ -678,11 +688,14 @@ NLC_API nlc_status nlc_network_init(nlc_network **network, void *memory, size_t 
 /*
  * nlc_set_options - replace all options of a network, as if it had been built with them.
  *
+ * The memory that nlc_network_init was given has to be as much as nlc_network_size says for them; else NLC_ERROR_MEMORY_SIZE.
+ * With as much as the default options need all are possible.
+ *
  * network    from nlc_network_init
  * options    or NULL for the defaults; options->stiffness is [contacts]
  * info       or NULL
- * Returns NLC_OK; NLC_ERROR_NULL, _NULL_FIELD, _STRUCT_SIZE, _RESERVED, _NETWORK, _MODEL, _METHOD, _OPTION, _ALIGNMENT,
- * _STIFFNESS, _GHOST, _RANGE.
+ * Returns NLC_OK; NLC_ERROR_NULL, _NULL_FIELD, _STRUCT_SIZE, _RESERVED, _NETWORK, _MODEL, _METHOD, _OPTION, _MEMORY_SIZE,
+ * _ALIGNMENT, _STIFFNESS, _GHOST, _RANGE.
  */
 NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *options, nlc_info *info);
 
@@ -857,10 +870,12 @@ NLC_API nlc_status nlc_energy(nlc_network *network, double *NLC_RESTRICT energy,
  * force       [contacts] P >= 0 of nlc_solve [N]: the state
  * normal      [contacts][3] as for nlc_solve
  * info        or NULL: sweeps, residual (of the linear equations, relative)
- * Solved by conjugate gradients to a residual of a tenth of the tolerance.  NLC_ERROR_UNSTABLE: the state is beyond the end of
- * the stable branch, noticed only if doverlap excites the unstable mode; nlc_tangent_bound notices it always.
- * Returns NLC_OK; NLC_WARNING_NOT_CONVERGED; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _NO_POTENTIAL, _OVERLAP (doverlap), _FORCE,
- * _NORMAL, _COINCIDENT, _RANGE, _UNSTABLE; on ranks _OPTION, _REMOTE, _CALLBACK.
+ * Solved by conjugate gradients to a residual of a tenth of the tolerance; without a coupling at once.  NLC_ERROR_UNSTABLE: the
+ * state is beyond the end of the stable branch, noticed only if doverlap excites the unstable mode; nlc_tangent_bound notices it
+ * always.
+ * NLC_ERROR_MEMORY_SIZE: the network is coupled and has less memory than the default options need, see nlc_network_size.
+ * Returns NLC_OK; NLC_WARNING_NOT_CONVERGED; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _NO_POTENTIAL, _MEMORY_SIZE, _OVERLAP
+ * (doverlap), _FORCE, _NORMAL, _COINCIDENT, _RANGE, _UNSTABLE; on ranks _OPTION, _REMOTE, _CALLBACK.
  */
 NLC_API nlc_status nlc_tangent(nlc_network *network, double *NLC_RESTRICT dforce, const double *NLC_RESTRICT doverlap,
                                const double *NLC_RESTRICT force, const double *NLC_RESTRICT normal, nlc_info *info);
@@ -886,8 +901,9 @@ NLC_API nlc_status nlc_tangent_inverse(nlc_network *network, double *NLC_RESTRIC
  * force        [contacts] P >= 0 of nlc_solve [N]: the state
  * normal       [contacts][3] as for nlc_solve
  * info         or NULL: lambda_upper, critical_particle, blocks
- * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _NO_POTENTIAL, _FORCE, _NORMAL, _RANGE, _UNSTABLE (not proved to be
- * stable; so are equal directions), _COINCIDENT (instead of that in NLC_MODEL_SPHERE, whose state takes a sweep); on ranks, where that
+ * NLC_ERROR_MEMORY_SIZE: as for nlc_tangent.
+ * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _NO_POTENTIAL, _MEMORY_SIZE, _FORCE, _NORMAL, _RANGE, _UNSTABLE (not
+ * proved to be stable; so are equal directions), _COINCIDENT (instead of that in NLC_MODEL_SPHERE, whose state takes a sweep); on ranks, where that
  * of ghosts is 0, _OPTION, _REMOTE, _CALLBACK.
  */
 NLC_API nlc_status nlc_tangent_bound(nlc_network *network, double *NLC_RESTRICT stiffness, const double *NLC_RESTRICT force,

@@ -31,8 +31,8 @@ static inline bool nlc_is_in(const nlc_network *n, int64_t c)
  */
 int64_t nlc_mark_active(nlc_network *n, const double *overlap);
 
-/* clusters.c: whether all contacts are one cluster. */
-bool nlc_is_connected(nlc_network *n);
+/* clusters.c: sets network->connected, if it has arrays for clusters. */
+void nlc_set_connected(nlc_network *n);
 
 /* n->origin becomes the contacts that are in, cluster by cluster; returns how many. */
 int64_t nlc_sort_clusters(nlc_network *n);

@@ -105,7 +105,7 @@ nlc_status nlc_network_update(nlc_network *network, const nlc_particles *particl
     if (status != NLC_OK) return nlc_error(info, status, culprit);
     network->scale_exponent = n.scale_exponent;
     nlc_set_bodies(network, &p);
-    network->connected = nlc_is_connected(network);
+    nlc_set_connected(network);
     nlc_apply_settings(network, &settings, stiffness);
     return nlc_error(info, NLC_OK, -1);
 }

@@ -5,6 +5,7 @@
  * A forest over the particles: cluster[k] leads to the first particle of k's cluster, the one of the lowest number.
  */
 #include "active.h"
+#include "layout.h"
 
 static int32_t first_of(int32_t *cluster, int32_t k)
 {
@@ -27,7 +28,7 @@ static int32_t cluster_of(nlc_network *n, int64_t c)
     return nlc_yield_of(n, n->j[c]) > 0 ? first_of(n->cluster, n->j[c]) : -1;
 }
 
-bool nlc_is_connected(nlc_network *n)
+static bool is_connected(nlc_network *n)
 {
     int32_t only = -1;
     for (int64_t k = 0; k < n->particle_count; k++) n->cluster[k] = (int32_t)k;
@@ -39,6 +40,11 @@ bool nlc_is_connected(nlc_network *n)
         only = k;
     }
     return true;
+}
+
+void nlc_set_connected(nlc_network *n)
+{
+    n->connected = n->arrays & NLC_FOR_SOLVER && is_connected(n);
 }
 
 int64_t nlc_sort_clusters(nlc_network *n)

@@ -239,9 +239,9 @@ static int64_t empty(const group *g, nlc_network *n, const double *force, const 
     for (int l = 0; l < LANES; l++) {
         const int64_t k = g->particle[l];
         hand_out(g, n, normal, l);
+        n->norm[k] = g->squares[l]; /* before largest, in whose memory it may be: layout.c */
         n->largest[k] = g->largest[l];
         if (!known) n->closest[k] = g->closest[l];
-        n->norm[k] = g->squares[l];
         if (n->closest[k] < NEAR && !leave(n, force, normal, k) && (bad < 0 || k < bad)) bad = k;
     }
     return bad;

@@ -63,6 +63,8 @@ struct nlc_network {
     int64_t particle_count, body_count, contact_count, material_count;
     int64_t owned;      /* particles that are computed here; ghosts follow */
     int64_t straddling; /* contacts with a ghost */
+    size_t memory_size; /* that it was given */
+    int arrays;         /* those that it has, see layout.h; the pointers to others are NULL */
     nlc_settings settings;
     nlc_ranks ranks;
     nlc_tops top;
@@ -121,7 +123,7 @@ struct nlc_network {
     double *part_overlap; /* [contacts of the part] */
     double *part_normal;  /* [contacts of the part][3] */
     /* For trees over the directions on a particle with very many contacts, see tree.h */
-    int32_t *order; /* [contacts] */
+    int32_t *order; /* [contacts, at most room_size] */
     double *room;   /* [room_size] */
     int64_t room_size;
     int64_t evaluations; /* of the kernel on such particles, ever: for tests */
@@ -165,6 +167,7 @@ static inline int64_t nlc_side_at(const nlc_network *n, const double *normal, in
 }
 
 /* settings.c */
+const nlc_model *nlc_model_of(const nlc_options *options); /* whose model is one */
 nlc_status nlc_read_settings(nlc_settings *settings, const nlc_options *options, int64_t *culprit);
 bool nlc_prefactor_in_range(const nlc_network *network, const nlc_settings *settings);
 void nlc_apply_settings(nlc_network *network, const nlc_settings *settings, const double *stiffness);

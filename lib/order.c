@@ -148,7 +148,7 @@ nlc_status nlc_order(nlc_network *network, int32_t *NLC_RESTRICT particle, int64
     if (!nlc_network_is_valid(network)) return nlc_error(info, NLC_ERROR_NETWORK, -1);
     if (network->particle_count > 0 && !particle) return nlc_error(info, NLC_ERROR_NULL, 1);
     if (network->contact_count > 0 && !contact) return nlc_error(info, NLC_ERROR_NULL, 2);
-    /* the part is not in use between calls */
+    /* the part is not in use between calls; where there is none this is other work space, see layout.c */
     order o = {.n = network, .place = network->place, .other = network->part->entry, .at = network->part->start,
                .particle = particle, .contact = contact};
     order_particles(&o);

@@ -4,6 +4,7 @@
 
 #include "collective.h"
 #include "hertz.h"
+#include "layout.h"
 #include "structs.h"
 
 #define DEFAULT_TOLERANCE 1e-8
@@ -12,6 +13,12 @@
 static bool is_finite_nonnegative(double x)
 {
     return nlc_is_finite(x) && x >= 0;
+}
+
+const nlc_model *nlc_model_of(const nlc_options *o)
+{
+    const bool undeformed = o->model == NLC_MODEL_HALF_SPACE && o->points == NLC_POINTS_UNDEFORMED;
+    return undeformed ? &nlc_half_space_undeformed : &nlc_models[o->model];
 }
 
 nlc_status nlc_read_settings(nlc_settings *settings, const nlc_options *o, int64_t *culprit)
@@ -41,8 +48,7 @@ nlc_status nlc_read_settings(nlc_settings *settings, const nlc_options *o, int64
     *culprit = offsetof(nlc_options, reserved);
     if (o->reserved) return NLC_ERROR_OPTION;
     *culprit = -1;
-    const bool undeformed = o->model == NLC_MODEL_HALF_SPACE && o->points == NLC_POINTS_UNDEFORMED;
-    settings->model = undeformed ? &nlc_half_space_undeformed : &nlc_models[o->model];
+    settings->model = nlc_model_of(o);
     settings->variant = nlc_choose_variant(o->simd);
     settings->number = o->model;
     settings->method = o->method;
@@ -128,6 +134,7 @@ nlc_status nlc_set_options(nlc_network *network, const nlc_options *options, nlc
 {
     nlc_options o;
     nlc_settings settings;
+    int arrays;
     int64_t culprit;
     if (!nlc_info_is_valid(info)) return NLC_ERROR_STRUCT_SIZE;
     if (!network) return nlc_error(info, NLC_ERROR_NULL, 0);
@@ -139,6 +146,8 @@ nlc_status nlc_set_options(nlc_network *network, const nlc_options *options, nlc
     if (status != NLC_OK) return nlc_error(info, status, culprit);
     if (!nlc_prefactor_in_range(network, &settings)) return nlc_error(info, NLC_ERROR_RANGE, -1);
     if ((status = check_stiffnesses(network, o.stiffness, &culprit)) != NLC_OK) return nlc_error(info, status, culprit);
+    if ((status = nlc_choose_arrays(network, &o, &arrays, &culprit)) != NLC_OK) return nlc_error(info, status, culprit);
+    if (arrays != network->arrays) nlc_lay_out(network, (char *)network, arrays);
     nlc_apply_settings(network, &settings, o.stiffness);
     return nlc_error(info, NLC_OK, -1);
 }

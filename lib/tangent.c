@@ -8,6 +8,7 @@
 #include "block.h"
 #include "bound.h"
 #include "collective.h"
+#include "layout.h"
 #include "structs.h"
 
 #define PART 0.1 /* of the tolerance, for the residual of the linear equations */
@@ -80,6 +81,10 @@ static void solve_linear(nlc_network *n, double *x, double *b, const double *nor
 {
     double *p = n->spare[1], *a = n->spare[2];
     const int64_t count = n->contact_count;
+    if (!n->settings.model->within) { /* A = 1 */
+        memcpy(x, b, (size_t)count * sizeof *x);
+        return;
+    }
     double rr = dot(n, b, b);
     const double enough = PART * PART * n->settings.tolerance * n->settings.tolerance * rr, first = rr;
     for (int64_t c = 0; c < count; c++) x[c] = 0, p[c] = b[c];
@@ -157,6 +162,9 @@ static nlc_status check_arguments(nlc_network *n, const given *g, int64_t *culpr
     const double *const argument[4] = {g->out, vector ? g->in : g->out, g->force, g->normal};
     *culprit = n->settings.number;
     if (!n->settings.model->potential) return NLC_ERROR_NO_POTENTIAL;
+    const bool solver = n->settings.model->within && g->function != NLC_TANGENT_INVERSE;
+    const nlc_status status = solver ? nlc_check_solver(n, culprit) : NLC_OK;
+    if (status != NLC_OK) return status;
     *culprit = -1;
     if (n->contact_count == 0 && vector) return NLC_OK;
     for (int a = 0; a < 4; a++) { /* the bound needs no contacts to have something to say of particles */
@@ -246,23 +254,16 @@ nlc_status nlc_tangent_inverse(nlc_network *network, double *NLC_RESTRICT doverl
  */
 static double stiffness_on(const nlc_network *n, int64_t particle)
 {
+    const bool coupled = n->settings.model->within;
     double sum = 0;
     for (int64_t p = n->start[particle]; p < n->start[particle + 1]; p++) {
         const int64_t c = n->entry[p] >> 1, i = n->i[c], j = n->j[c];
         double left = 1;
-        if (i < n->particle_count) left -= n->share[2 * c] * n->bound[i];
-        if (j < n->particle_count) left -= n->share[2 * c + 1] * n->bound[j];
+        if (coupled && i < n->particle_count) left -= n->share[2 * c] * n->bound[i];
+        if (coupled && j < n->particle_count) left -= n->share[2 * c + 1] * n->bound[j];
         sum += n->slope[c] / left;
     }
     return sum;
-}
-
-/* b_k and shares of a model without coupling. */
-static void no_bound(nlc_network *n, nlc_info *info)
-{
-    for (int64_t k = 0; k < n->particle_count; k++) n->bound[k] = 0;
-    for (int64_t e = 0; e < 2 * n->contact_count; e++) n->share[e] = 0;
-    info->lambda_lower = info->lambda_upper = 0;
 }
 
 nlc_status nlc_tangent_bound(nlc_network *network, double *NLC_RESTRICT stiffness, const double *NLC_RESTRICT force,
@@ -278,7 +279,7 @@ nlc_status nlc_tangent_bound(nlc_network *network, double *NLC_RESTRICT stiffnes
         k.o.info.critical_particle = bound.where;
         k.o.info.blocks = bound.blocks;
     } else {
-        no_bound(network, &k.o.info);
+        k.o.info.lambda_lower = k.o.info.lambda_upper = 0;
     }
     if (bound.upper >= 1) k.o.status = NLC_ERROR_UNSTABLE;
     double *sum = network->growth;

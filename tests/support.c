@@ -9,6 +9,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -191,6 +193,27 @@ void fp_untrap(void)
     fedisableexcept(FE_ALL_EXCEPT);
     feclearexcept(FE_ALL_EXCEPT);
 #endif
+}
+
+/* ------------------------------------------------------------------------------- memory whose ends cannot be crossed -- */
+
+guarded guard(const void *data, size_t size, bool behind)
+{
+    const size_t page = (size_t)sysconf(_SC_PAGESIZE), inner = (size + page - 1) / page * page;
+    guarded g = {.size = inner + 2 * page};
+    g.pages = mmap(NULL, g.size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    ck_assert(g.pages != MAP_FAILED);
+    ck_assert_int_eq(mprotect(g.pages, page, PROT_NONE), 0);
+    ck_assert_int_eq(mprotect(g.pages + page + inner, page, PROT_NONE), 0);
+    g.at = g.pages + page + (behind ? inner - size : 0);
+    if (data) memcpy(g.at, data, size);
+    else memset(g.at, 0xff, size);
+    return g;
+}
+
+void unguard(guarded g)
+{
+    ck_assert_int_eq(munmap(g.pages, g.size), 0);
 }
 
 /* -------------------------------------------------------------------------------------------------------------- main -- */

@@ -137,6 +137,18 @@ const char *fp_end(void);
 void fp_trap(void);
 void fp_untrap(void);
 
+/* ------------------------------------------------------------------------------- memory whose ends cannot be crossed -- */
+
+typedef struct guarded {
+    char *pages;
+    size_t size; /* of these */
+    void *at;
+} guarded;
+
+/* A copy between two pages without access: flush with the one behind it or the one before it.  data NULL: all bytes 0xff, NaN. */
+guarded guard(const void *data, size_t size, bool behind);
+void unguard(guarded g);
+
 /* -------------------------------------------------------------------------------------------------------------- main -- */
 
 /* run_suite - run it, print Check's summary.  Returns the exit status of the program: 0, or 1 after a failure. */

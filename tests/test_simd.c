@@ -4,8 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include "../lib/block.h"
 #include "../lib/bound.h"
@@ -22,34 +20,6 @@ static bool is_here(int simd)
 {
     const nlc_variant *v = nlc_choose_variant(simd);
     return simd == NLC_SIMD_GENERIC || (v && simd != NLC_SIMD_BEST && v != nlc_choose_variant(simd == NLC_SIMD_NEON ? NLC_SIMD_GENERIC : simd - 1));
-}
-
-/* ---- memory whose ends cannot be crossed */
-
-typedef struct guarded {
-    char *pages;
-    size_t size;
-    void *at;
-} guarded;
-
-/* A copy between two pages without access: flush with the one behind it or the one before it. */
-static guarded guard(const void *data, size_t size, bool behind)
-{
-    const size_t page = (size_t)sysconf(_SC_PAGESIZE), inner = (size + page - 1) / page * page;
-    guarded g = {.size = inner + 2 * page};
-    g.pages = mmap(NULL, g.size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    ck_assert(g.pages != MAP_FAILED);
-    ck_assert_int_eq(mprotect(g.pages, page, PROT_NONE), 0);
-    ck_assert_int_eq(mprotect(g.pages + page + inner, page, PROT_NONE), 0);
-    g.at = g.pages + page + (behind ? inner - size : 0);
-    if (data) memcpy(g.at, data, size);
-    else memset(g.at, 0xff, size); /* NaN */
-    return g;
-}
-
-static void unguard(guarded g)
-{
-    ck_assert_int_eq(munmap(g.pages, g.size), 0);
 }
 
 /* The displacements of all sides, computed between guard pages; to be freed.  Looks at the largest forces, too. */

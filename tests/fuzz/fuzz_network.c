@@ -534,7 +534,7 @@ static void energy(scene *s)
     demand(same_bytes(&second, e, sizeof second), "the energy of another network");
 }
 
-#define TANGENT_ERRORS NETWORK_ERRORS, NLC_ERROR_NO_POTENTIAL, NLC_ERROR_FORCE, NLC_ERROR_NORMAL, NLC_ERROR_RANGE
+#define TANGENT_ERRORS NETWORK_ERRORS, NLC_ERROR_NO_POTENTIAL, NLC_ERROR_MEMORY_SIZE, NLC_ERROR_FORCE, NLC_ERROR_NORMAL, NLC_ERROR_RANGE
 
 /* which: 0 the tangent, 1 its inverse, 2 the bound */
 static void tangent(scene *s, int which)
@@ -556,9 +556,10 @@ static void tangent(scene *s, int which)
                                       TANGENT_ERRORS, NLC_ERROR_COINCIDENT)
                          : COLLECTIVE(s, its, &r, nlc_tangent_bound(network, r.x, s->force, s->normal, its), 0, TANGENT_ERRORS,
                                       NLC_ERROR_COINCIDENT, NLC_ERROR_UNSTABLE);
-        if (k == 0) status = found;
-        else demand(found == status, "the status of another network");
         if (bad) return;
+        if (k == 0) status = found;
+        else if (found == NLC_ERROR_MEMORY_SIZE) copy_bytes(second, x, size); /* it has memory for its options only */
+        else demand(found == status, "the status of another network");
     }
     look_at_info(info, status);
     look(status, x, old, n);
@@ -668,7 +669,8 @@ static void set_options(scene *s)
     nlc_info *info = make_info(s, INFO, &bad);
     const nlc_status status =
         CALL(nlc_set_options(s->network, s->options, info), 0, NETWORK_ERRORS, NLC_ERROR_RESERVED, NLC_ERROR_MODEL, NLC_ERROR_METHOD,
-             NLC_ERROR_OPTION, NLC_ERROR_ALIGNMENT, NLC_ERROR_STIFFNESS, NLC_ERROR_RANGE, NLC_ERROR_NULL_FIELD, NLC_ERROR_GHOST);
+             NLC_ERROR_OPTION, NLC_ERROR_ALIGNMENT, NLC_ERROR_STIFFNESS, NLC_ERROR_RANGE, NLC_ERROR_NULL_FIELD, NLC_ERROR_GHOST,
+             NLC_ERROR_MEMORY_SIZE);
     look_at_info(info, status);
     if (status == NLC_OK) {
         keep_stiffness(s, s->options ? s->options->stiffness : NULL);

@@ -362,7 +362,7 @@ static void look(const kept *before)
     demand((a->status < 0) == (b->status < 0), "an error on one rank alone");
     demand(a->status != NLC_ERROR_REMOTE || b->status != NLC_ERROR_REMOTE, "an error of nobody");
     for (int q = 0; q < RANKS; q++) {
-        static const nlc_status errors[] = {NLC_ERROR_NO_POTENTIAL, NLC_ERROR_OPTION, NLC_ERROR_OVERLAP, NLC_ERROR_NORMAL, NLC_ERROR_NONLOCAL,
+        static const nlc_status errors[] = {NLC_ERROR_NO_POTENTIAL, NLC_ERROR_MEMORY_SIZE, NLC_ERROR_OPTION, NLC_ERROR_OVERLAP, NLC_ERROR_NORMAL, NLC_ERROR_NONLOCAL,
                                             NLC_ERROR_FORCE, NLC_ERROR_COINCIDENT, NLC_ERROR_RANGE, NLC_ERROR_UNSTABLE, NLC_ERROR_REMOTE, 0};
         const rank *r = &ranks[q];
         bool known = r->status >= 0 && r->status < 16;
