@@ -76,6 +76,16 @@ nlc_status nlc_check_bodies(nlc_network *n, const nlc_settings *settings, const 
     return nlc_prefactor_in_range(n, settings) ? NLC_OK : NLC_ERROR_RANGE;
 }
 
+static double least_ratio(const nlc_network *n)
+{
+    double least = INFINITY, largest = 0;
+    for (int64_t k = 0; k < n->particle_count; k++) {
+        least = n->radius[k] < least ? n->radius[k] : least;
+        largest = n->radius[k] > largest ? n->radius[k] : largest;
+    }
+    return !nlc_is_finite(largest) || !(largest > 0) ? 0 : least / largest;
+}
+
 void nlc_set_bodies(nlc_network *n, const nlc_particles *p)
 {
     for (int64_t k = 0; k < n->body_count; k++) n->material[k] = nlc_material_of(p, k);
@@ -84,6 +94,7 @@ void nlc_set_bodies(nlc_network *n, const nlc_particles *p)
         n->radius[k] = nlc_radius_of(p, k);
         n->scale[k] = coupling_scale(n->radius[k], n->materials[n->material[k]]);
     }
+    n->least_ratio = least_ratio(n);
 }
 
 nlc_status nlc_network_update(nlc_network *network, const nlc_particles *particles, const double *stiffness, nlc_info *info)

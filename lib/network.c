@@ -51,16 +51,6 @@ void nlc_build_adjacency(nlc_network *n)
     }
 }
 
-static double least_ratio(const nlc_network *n)
-{
-    double least = INFINITY, largest = 0;
-    for (int64_t k = 0; k < n->particle_count; k++) {
-        least = n->radius[k] < least ? n->radius[k] : least;
-        largest = n->radius[k] > largest ? n->radius[k] : largest;
-    }
-    return !nlc_is_finite(largest) || !(largest > 0) ? 0 : least / largest;
-}
-
 static void build(nlc_network *n, const nlc_particles *p, const int32_t *i, const int32_t *j)
 {
     nlc_set_bodies(n, p);
@@ -71,7 +61,6 @@ static void build(nlc_network *n, const nlc_particles *p, const int32_t *i, cons
     }
     if (n->body_count > 0) memset(n->largest, 0, (size_t)n->body_count * sizeof *n->largest);
     nlc_build_adjacency(n);
-    n->least_ratio = least_ratio(n);
     for (int64_t k = 0; k < n->body_count && n->arrays & NLC_FOR_SOLVER; k++) n->place[k] = -1;
     nlc_set_connected(n);
 }

@@ -685,6 +685,31 @@ START_TEST(update_finds_clusters_anew)
 }
 END_TEST
 
+/*
+ * Two grains beside each other become large, so that their circles on a third one come to overlap, which those of the overlaps alone do
+ * not show: a larger one is between equal grains, where it makes a smaller circle.
+ */
+START_TEST(update_finds_circles_anew)
+{
+    scene s;
+    nlc_info info;
+    scene_init(&s);
+    s.options.model = NLC_MODEL_HALF_SPACE;
+    s.options.points = NLC_POINTS_UNDEFORMED;
+    s.options.prefactor = 1e-9; /* overlaps are as they are given */
+    const int32_t m = scene_material(&s, 1e6, 0.4);
+    for (int k = 0; k < 4; k++) scene_particle(&s, 1, m);
+    scene_contact(&s, 0, 3, 0.01, -1, 0, 0);
+    scene_contact(&s, 0, 1, 0.009, 1, 0.08, 0);
+    scene_contact(&s, 0, 2, 0.009, 1, -0.08, 0);
+    ck_assert_int_eq(scene_solve(&s, &info), NLC_OK);
+    s.radius[1] = s.radius[2] = 10;
+    ck_assert_int_eq(update(&s, 0), NLC_OK);
+    ck_assert_int_eq(scene_solve(&s, &info), NLC_WARNING_CLOSE);
+    scene_free(&s);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("hosts");
@@ -706,6 +731,7 @@ int main(void)
     tcase_add_test(t, carried_by_key);
     tcase_add_loop_test(t, updated_network_is_as_new, 0, 6);
     tcase_add_test(t, update_finds_clusters_anew);
+    tcase_add_test(t, update_finds_circles_anew);
     suite_add_tcase(suite, t);
     return run_suite(suite);
 }
