@@ -51,10 +51,10 @@ static void lay_out_sweep(nlc_network *n, room *r)
     n->kept_at = take(r, NLC_ALWAYS, windows, sizeof *n->kept_at);
     n->piece = take(r, NLC_ALWAYS, windows > slabs ? windows : slabs, sizeof *n->piece);
     n->largest = take(r, NLC_ALWAYS, n->body_count, sizeof *n->largest);
-    n->closest = take(r, NLC_ALWAYS, n->particle_count + 1, sizeof *n->closest); /* one more for nlc_order, see share_memory */
+    n->closest = take(r, NLC_ALWAYS, n->particle_count, sizeof *n->closest);
     n->side = take(r, NLC_ALWAYS, 2 * n->contact_count, sizeof *n->side);
     n->force = take(r, NLC_ALWAYS, n->contact_count, sizeof *n->force);
-    n->current = take(r, NLC_ALWAYS, n->contact_count, sizeof *n->current); /* right behind force, likewise */
+    n->current = take(r, NLC_ALWAYS, n->contact_count, sizeof *n->current); /* right behind force, see share_memory */
     n->spare[0] = take(r, NLC_ALWAYS, n->contact_count, sizeof *n->spare[0]);
     n->approach = take(r, NLC_FOR_CIRCLES, n->contact_count, sizeof *n->approach);
     n->own = take(r, NLC_FOR_PLACES, 2 * n->contact_count, sizeof *n->own);

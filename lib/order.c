@@ -13,7 +13,7 @@ typedef struct order {
     const nlc_network *n;
     int32_t *place;        /* [particles] numbers to be; -1: none yet */
     int64_t *other;        /* [2 contacts] the other body of each side, as entry */
-    int64_t *at;           /* [particles + 1] */
+    int64_t *at;           /* [particles] */
     int32_t *particle;     /* out */
     int64_t *contact;      /* out */
     int64_t count;         /* of particles that have their numbers, */

@@ -412,6 +412,44 @@ START_TEST(shared_out)
 }
 END_TEST
 
+static void become_point_forces(rank *r)
+{
+    r->s.options.model = NLC_MODEL_GONZALEZ_CUITINO;
+    r->status = nlc_set_options(r->s.network, &r->s.options, NULL);
+}
+
+/* Ranks with many more particles than they own get other options: what the network was built from stays where it was. */
+START_TEST(shared_out_and_changed)
+{
+    rng g = {5};
+    scene s;
+    ranks made, changed;
+    scene_init(&s);
+    s.options = options_of(NLC_MODEL_LOVE, NLC_METHOD_FIXED_POINT);
+    scene_lattice(&s, SIMPLE_CUBIC, 9, 1e9, 0.3, 0.01, 1e-3, &g);
+    int *owner = calloc((size_t)s.particles, sizeof *owner);
+    for (int64_t k = 0; k < s.particles; k++) owner[k] = (int)rng_below(&g, RANKS);
+    rng same = g;
+    ranks_init(&changed, &s, owner, RANKS, &g);
+    ranks_run(&changed, rank_build);
+    ranks_run(&changed, become_point_forces);
+    s.options.model = NLC_MODEL_GONZALEZ_CUITINO;
+    ranks_init(&made, &s, owner, RANKS, &same);
+    ranks_run(&made, rank_build);
+    for (int q = 0; q < RANKS; q++) {
+        ck_assert_int_eq(made.rank[q].status + changed.rank[q].status, NLC_OK);
+        ck_assert(changed.rank[q].owned <= 512 && changed.rank[q].s.particles > 512);
+    }
+    ranks_run(&made, rank_solve);
+    ranks_run(&changed, rank_solve);
+    ck_assert_int_ge(made.rank[0].status, NLC_OK);
+    compare_ranks(&changed, &made, "solve");
+    ranks_free(&made), ranks_free(&changed);
+    free(owner);
+    scene_free(&s);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("memory");
@@ -424,6 +462,7 @@ int main(void)
     tcase_add_loop_test(t, crowds, 0, 3);
     tcase_add_loop_test(t, options_that_fit, 0, 2 * MODELS);
     tcase_add_loop_test(t, shared_out, 0, 2 * MODELS);
+    tcase_add_test(t, shared_out_and_changed);
     suite_add_tcase(suite, t);
     return run_suite(suite);
 }
