@@ -143,10 +143,10 @@ size_t nlc_lay_out(nlc_network *n, char *memory, int arrays)
 
 int nlc_arrays_for(const nlc_options *o)
 {
-    if (o->model < 0 || o->model >= nlc_models_count) return NLC_ALL_ARRAYS; /* nlc_network_init will say what is wrong */
+    if (o->model < 0 || o->model >= nlc_models_count) return NLC_ALWAYS; /* that is what is wrong, not the memory */
     const nlc_model *model = nlc_model_of(o);
     const nlc_shape shape = model->shape;
-    if (model->within && o->method != NLC_METHOD_FIXED_POINT) return NLC_ALL_ARRAYS;
+    if (model->within && o->method == NLC_METHOD_AUTOMATIC) return NLC_ALL_ARRAYS;
     return NLC_ALWAYS | (model->within ? NLC_FOR_TREES : 0) | (o->exchange ? NLC_FOR_RANKS : 0) |
            (shape == NLC_SHAPE_RADIUS || shape == NLC_SHAPE_MOMENTS ? NLC_FOR_CIRCLES : 0) |
            (shape == NLC_SHAPE_PLACE || shape == NLC_SHAPE_MOMENTS ? NLC_FOR_PLACES : 0);

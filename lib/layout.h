@@ -18,7 +18,7 @@ enum {
 /* Sets the pointers of a network whose counts are set, at memory, or just measures where that is NULL.  The size, 0 if it overflows. */
 size_t nlc_lay_out(nlc_network *network, char *memory, int arrays);
 
-/* What checked options, or others, need. */
+/* What options need; those that are wrong as little as any. */
 int nlc_arrays_for(const nlc_options *options);
 
 /* What a network with these options gets in network->memory_size bytes: all if there is room.  Else culprit: the size for what they need. */

@@ -79,10 +79,15 @@ START_TEST(largest_counts)
     ck_assert_int_eq(nlc_network_init(&n, memory, sizeof memory, &p, &i, &j, between, &o, &info), NLC_ERROR_MEMORY_SIZE);
     ck_assert_int_eq(info.culprit, (int64_t)size);
     ck_assert_int_eq(nlc_network_init(&n, memory, sizeof memory, &p, &i, &j, between, NULL, &info), NLC_ERROR_COUNT);
-    o.model = 99; /* nlc_network_init says so */
-    ck_assert_uint_eq(nlc_network_size(&p, 1, &o), nlc_network_size(&p, 1, NULL));
-    o.model = 0, o.method = 99;
-    ck_assert_uint_eq(nlc_network_size(&p, 1, &o), nlc_network_size(&p, 1, NULL));
+    for (int wrong = 0; wrong < 2; wrong++) { /* what is wrong is not the memory */
+        const size_t least = nlc_network_size(&p, 1, &(nlc_options){.struct_size = sizeof o, .model = NLC_MODEL_HERTZ});
+        guarded g = guard(NULL, least, true);
+        o = options_of(0, NLC_METHOD_FIXED_POINT);
+        *(wrong ? &o.method : &o.model) = 99;
+        ck_assert_uint_eq(nlc_network_size(&p, 1, &o), least);
+        ck_assert_int_eq(nlc_network_init(&n, g.at, least, &p, &i, &j, 1, &o, &info), wrong ? NLC_ERROR_METHOD : NLC_ERROR_MODEL);
+        unguard(g);
+    }
 }
 END_TEST
 
