@@ -273,7 +273,7 @@ LOAD := $(addprefix $(B)/tests/load/,solves contacts counts)
 $(LOAD): %: %.o $(STATIC)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
 check: $(LOAD)
-load: $(LOAD) ## a million small networks, one that fills the memory, counts beyond 2^31: some ten minutes
+load: $(LOAD) ## a million small networks, two that fill the memory, counts beyond 2^31: some ten minutes
 	@B='$(abspath $(B))' sh $(S)/tests/load/run
 -include $(wildcard $(B)/tests/load/*.d)
 
