@@ -267,13 +267,13 @@ audit: ## all of these with full counts, a day or so; what they find goes to aud
 	@S='$(abspath $(S))' B='$(abspath $(B))' MAKE='$(MAKE)' VERSION='$(VERSION)' sh $(S)/tests/audit
 -include $(wildcard $(B)/tests/fuzz/*.d)
 
-# ---- load: many networks, large ones, large counts
+# ---- load: many networks, large ones, large counts, many steps
 .PHONY: load
-LOAD := $(addprefix $(B)/tests/load/,solves contacts counts)
+LOAD := $(addprefix $(B)/tests/load/,solves contacts counts soak)
 $(LOAD): %: %.o $(STATIC)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
 check: $(LOAD)
-load: $(LOAD) ## a million small networks, two that fill the memory, counts beyond 2^31: some ten minutes
+load: $(LOAD) ## a million small networks, two that fill the memory, counts beyond 2^31, a million steps: some twenty minutes
 	@B='$(abspath $(B))' sh $(S)/tests/load/run
 -include $(wildcard $(B)/tests/load/*.d)
 
