@@ -4,6 +4,8 @@
     spack repo create nlc                                   (once; then: spack repo add nlc)
     cp packaging/package.py nlc/packages/nlcontact/         (below the folder that spack repo create names)
     spack install --no-checksum nlcontact
+
+Built with Spack 0.23; in Spack 1.0 the base class has moved.
 """
 import os
 
