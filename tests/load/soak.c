@@ -4,22 +4,22 @@
  *
  *     soak [STEPS [SEED]]     default 4000, 1
  *
- * 108 spheres in a box of six walls, some 600 contacts and candidates: a crystal out of order whose spheres all vibrate, each at
- * rates of its own.  In every 500 steps the walls, apart at first, press it together and part again: lightly, or one time in
- * sixteen beyond the end of the stable branch.  The host does what hosts do: it lists neighbours anew as soon as nlc_reach and the
- * motion ask for it, in the same memory, carries displacements over, predicts, solves, assembles; with every 500 steps it
+ * 108 spheres in a box of six walls, some 600 contacts and candidates: a crystal out of order whose spheres all vibrate, each
+ * at rates of its own.  In every 500 steps the walls, apart at first, press it together and part again: lightly, or one time in
+ * sixteen beyond the end of the stable branch.  The host does what hosts do: it lists neighbours anew as soon as nlc_reach and
+ * the motion ask for it, in the same memory, carries displacements over, predicts, solves, assembles; with every 500 steps it
  * changes all options, in their turn every model.  Then
  *     no status is one that the header does not name for such a state, no exception is raised, errno and all bytes beyond what
  *     each call may write stay as they are, nothing is left beyond the end of the stable branch once the load is less, and the
  *     process does not grow;
- *     every 61 steps a network built in other memory finds, from the same start, the same bits, and from zeros the same forces to
- *     the tolerances of both and the same energy to their square;
+ *     every 61 steps a network built in other memory finds, from the same start, the same bits, and from zeros the same
+ *     forces to the tolerances of both and the same energy to their square;
  *     forces on spheres and walls sum up to 0 to rounding, and what they do along the way is what the elastic energy has lost.
  *
- * How long is long.  A host with a million contacts that takes 0.15 s for a step makes 6e5 steps in a day; the 1e6 of `make load`,
- * ten minutes or so, are more than a day and a half of it, and what `make check` runs is ten minutes.  A host with as few
- * contacts as this one makes 3e8 steps in a day, in 0.3 ms each: those are 1/300.  What grows with time alone counts steps, not
- * contacts, and nothing here is made anew but what a host makes anew.
+ * How long is long.  A host with a million contacts that takes 0.15 s for a step makes 6e5 steps in a day; the 1e6 of `make
+ * load`, ten minutes or so, are more than a day and a half of it, and what `make check` runs is ten minutes.  A host with as
+ * few contacts as this one makes 3e8 steps in a day, in 0.3 ms each: those are 1/300.  What grows with time alone counts steps,
+ * not contacts, and nothing here is made anew but what a host makes anew.
  */
 #include <errno.h>
 #include <fenv.h>
@@ -49,7 +49,7 @@ static int32_t material[SPHERES], wall_material[WALLS], later[SPHERES], length[S
 static double wall_place[WALLS][3], wall_normal[WALLS][3];
 static nlc_material materials[MATERIALS] = {{1, 0.46}, {2, 0.4}, {INFINITY, 0}};
 
-static double x[SPHERES + WALLS][3], listed[SPHERES + WALLS][3]; /* where all are, and were when listed; walls: a point of each */
+static double x[SPHERES + WALLS][3], listed[SPHERES + WALLS][3];      /* where all are, and were when listed; walls: a point */
 static double last_x[SPHERES + WALLS][3], last_F[SPHERES + WALLS][3]; /* the step before: places, forces */
 static double *F, *F_wall;
 static contacts now, old;
@@ -66,8 +66,8 @@ static int started, stable; /* there is a step before, in this cycle; all of the
 static void fail(const char *what, double a, double b)
 {
     fprintf(stderr, "soak: step %lld of seed %llu, model %d, points %d, tolerance %g, load %g: %s: %.17g, %.17g\n",
-            (long long)number, (unsigned long long)seed, (int)options.model, (int)options.points, options.tolerance, depth, what,
-            a, b);
+            (long long)number, (unsigned long long)seed, (int)options.model, (int)options.points, options.tolerance, depth,
+            what, a, b);
     exit(1);
 }
 
@@ -237,8 +237,10 @@ static void set_options(nlc_network *n)
 {
     const size_t size = nlc_cache_size(n);
     nlc_options o = options;
-    if (!o.cache) use(cache, 0);
-    else use(cache, o.cache_size = size < cache_size ? size : cache_size);
+    if (!o.cache)
+        use(cache, 0);
+    else
+        use(cache, o.cache_size = size < cache_size ? size : cache_size);
     check(nlc_set_options(n, &o, NULL), 0, "nlc_set_options");
 }
 
@@ -297,7 +299,8 @@ static nlc_status solve(nlc_network *n, double *force, double *nonlocal)
     }
     if (info.active != active) fail("info.active", (double)active, (double)info.active);
     if (((status & NLC_WARNING_WEAKENED) != 0) != (info.coupling < 1)) fail("a coupling", info.coupling, status);
-    if (!(info.residual <= options.tolerance) && !(status & NLC_WARNING_NOT_CONVERGED)) fail("a residual", info.residual, status);
+    if (!(info.residual <= options.tolerance) && !(status & NLC_WARNING_NOT_CONVERGED))
+        fail("a residual", info.residual, status);
     sweeps += info.sweeps;
     return status;
 }
@@ -366,8 +369,7 @@ static void assemble(nlc_status status)
     memset(F, 0, 3 * SPHERES * sizeof *F), memset(F_wall, 0, 3 * WALLS * sizeof *F_wall);
     check(nlc_assemble(network, F, 0, F_wall, now.force, now.normal, NULL), 0, "nlc_assemble");
     stable = stable && status == NLC_OK && has_energy();
-    if (stable)
-        check(nlc_assemble_turning(network, F, 0, now.force, now.overlap, now.normal, NULL), 0, "nlc_assemble_turning");
+    if (stable) check(nlc_assemble_turning(network, F, 0, now.force, now.overlap, now.normal, NULL), 0, "nlc_assemble_turning");
     add_work();
     if (!stable) return;
     const double e = energy_of(network, now.force);
@@ -381,7 +383,7 @@ static void assemble(nlc_status status)
 
 static void begin_cycle(void)
 {
-    static const double light[] = {0.01, 0.03, 0.06}, hard[] = {0.132, 0.14}; /* NLC_MODEL_GONZALEZ_CUITINO's branch ends at .13 */
+    static const double light[] = {0.01, 0.03, 0.06}, hard[] = {0.132, 0.14}; /* of [GC] Case I the branch ends at 0.13 */
     const int32_t kinds = nlc_model_count() + 1; /* one more for the other points of the half-space */
     const int32_t kind = (int32_t)(cycle % kinds);
     depth = cycle++ % 16 ? light[below(3)] : hard[below(2)]; /* each of those costs more than all others together */
@@ -407,9 +409,12 @@ static void make_step(void)
     move();
     if (!network || is_stale()) list();
     const nlc_positions at = positions();
-    check(nlc_contacts_from_pairs(now.overlap, now.normal, &p, &at, now.i, now.j, now.count, NULL), 0, "nlc_contacts_from_pairs");
-    if (started) check(nlc_predict(now.nonlocal, now.previous, now.count, 1, NULL), 0, "nlc_predict");
-    else memcpy(now.previous, now.nonlocal, (size_t)now.count * sizeof(double));
+    check(nlc_contacts_from_pairs(now.overlap, now.normal, &p, &at, now.i, now.j, now.count, NULL), 0,
+          "nlc_contacts_from_pairs");
+    if (started)
+        check(nlc_predict(now.nonlocal, now.previous, now.count, 1, NULL), 0, "nlc_predict");
+    else
+        memcpy(now.previous, now.nonlocal, (size_t)now.count * sizeof(double));
     memcpy(now.start, now.nonlocal, (size_t)now.count * sizeof(double));
     const nlc_status status = solve(network, now.force, now.nonlocal);
     weakened += (status & NLC_WARNING_WEAKENED) != 0;
@@ -455,7 +460,8 @@ int main(int argc, char **argv)
         if (number == (count > 10 * settled ? count / 10 : settled)) before = megabytes();
     }
     const double grown = count > settled ? megabytes() - before : 0;
-    printf("soak: %lld steps, %lld sweeps, %lld lists: %lld times the same bits, %lld comparisons, off by %.2f tolerances at most, "
+    printf("soak: %lld steps, %lld sweeps, %lld lists: %lld times the same bits, %lld comparisons, off by %.2f tolerances at "
+           "most, "
            "%lld energies, work off by %.1e; %lld weakened, %lld close, %lld not converged; grown by %.1f MB; %016llx\n",
            (long long)count, (long long)sweeps, (long long)lists, (long long)bits, (long long)compared, worst_force,
            (long long)energies, worst_work, (long long)weakened, (long long)close_by, (long long)unconverged, grown,
