@@ -378,7 +378,7 @@ static void assemble(nlc_status status)
     if ((number + 1) % CYCLE) return;
     const double off = fabs(e - energy + work) / most_energy;
     worst_work = fmax(worst_work, off);
-    if (!(off <= 4e-6)) fail("the work of a cycle", e - energy, work);
+    if (!(off <= 1e-5)) fail("the work of a cycle", e - energy, work);
 }
 
 static void begin_cycle(void)
