@@ -10,8 +10,8 @@
 
 /*
  * A candidate whose displacement is known from the step before takes part if what is left of its gap is less than this part
- * of the largest overlap nearby, or of the displacement.  One of which nothing is known (0) does in any case if there is an overlap on its bodies, at
- * a start from nothing also one contact away.  A matter of speed only: to be wrong costs another solution.
+ * of the largest overlap nearby, or of the displacement.  One of which nothing is known (0) does in any case if there is an
+ * overlap on its bodies, at a start from nothing also one contact away.  A matter of speed only: to be wrong costs another solution.
  */
 #define NEAR 0.5
 

@@ -191,7 +191,8 @@ static bool refresh(nlc_iteration *q, progress *s, nlc_outcome *out)
 static int next_look(const nlc_iteration *q, const progress *s)
 {
     if (q->largest_residual >= NEAR * q->largest_force) return NONE;
-    if (q->largest_residual < NEARER * q->largest_force && q->theta > 1 - 4 * NLC_MARGIN) return CLOSER; /* bounds may be above lambda by some margins */
+    /* bounds may be above lambda by some margins */
+    if (q->largest_residual < NEARER * q->largest_force && q->theta > 1 - 4 * NLC_MARGIN) return CLOSER;
     return q->theta > 1 - 2 * NLC_MARGIN ? ROUGH : s->warm && q->theta > EARLY_FROM ? EARLY : NONE;
 }
 
