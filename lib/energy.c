@@ -57,7 +57,7 @@ static void add_up(const nlc_network *n, const double *force, const double *over
     const double most = FARTHEST / per_overlap;
     for (int64_t c = 0; c < n->contact_count; c++) {
         const double own = nlc_hertz_overlap(n->stiffness[c], force[c]) * per_overlap;
-        const double sum = n->side[2 * c] + n->side[2 * c + 1], g = (fabs(sum) < most ? sum : 0) * per_overlap;
+        const double moved = n->side[2 * c] + n->side[2 * c + 1], g = (fabs(moved) < most ? moved : 0) * per_overlap;
         const double energy = force[c] * per_force * (overlap[c] * per_overlap + 0.5 * g - 0.6 * own);
         s->energy += nlc_is_straddling(n, c) ? 0.5 * energy : energy;
     }

@@ -530,11 +530,11 @@ static int64_t next_reduction(int64_t at)
 }
 
 /* Whether one rank's reductions fail twice in a row. */
-static bool fails_in_a_row(const int *rank, const int64_t *at, int count)
+static bool fails_in_a_row(const int *of, const int64_t *at, int count)
 {
     bool found = false;
     for (int a = 0; a < count; a++)
-        for (int b = 0; b < count; b++) found |= rank[a] == rank[b] && at[a] % 3 != 1 && at[b] == next_reduction(at[a]);
+        for (int b = 0; b < count; b++) found |= of[a] == of[b] && at[a] % 3 != 1 && at[b] == next_reduction(at[a]);
     return found;
 }
 

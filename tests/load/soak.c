@@ -269,7 +269,7 @@ static void list(void)
     for (int64_t c = 0; c < now.count; c++) now.key[c] = (uint64_t)now.i[c] << 32 | (uint64_t)now.j[c];
     carry(now.nonlocal, old.nonlocal);
     carry(now.previous, old.previous);
-    memory_size = nlc_network_size(&p, now.count, &options);
+    memory_size = nlc_network_size(&p, now.count, NULL);
     use(memory, memory_size);
     network = build(memory);
     set_options(network);
