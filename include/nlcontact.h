@@ -526,9 +526,9 @@ typedef void (*nlc_parallel_callback)(void *context, void (*task)(void *work, in
  * units 2^450, else 2^1020).  Other wrong numbers give wrong results, which are finite.
  *
  * All ranks make the same calls, however many of these fail and where, but for one case: where two reductions in a row fail on one
- * rank, and a failure elsewhere has become known in the first of them, that rank calls reduce, and exchange if it is due, once more than
- * the others, which have returned.  So a callback that fails twice in a row is not to wait for others any more.  (Nobody who hears
- * nothing can know whether the others have heard: no protocol that ends is without such a case.)
+ * rank, and an error elsewhere has become known in the first of them, that rank calls reduce, and exchange if it is due, once
+ * more than the others, which have returned.  So a callback that fails twice in a row is not to wait for others any more.  (Nobody
+ * who hears nothing can know whether the others have heard: no protocol that ends is without such a case.)
  */
 
 /*

@@ -6,9 +6,11 @@
  * that fails (nlc_fail) goes on as if it had not until the next reduction, which tells all: from then on the network is over, and
  * these functions return false.  A rank whose reduction fails knows nothing but what comes next, since the callbacks come in turn,
  * always with the same counts; so it takes part in the next one to tell the others, who take part in one more for the sake of such
- * ranks when they hear of a failure.  All ranks end in the same call but where a reduction in which others hear of a failure, and the
- * next one, too, fail on a rank: it cannot know that they have left.  Any rule for leaving has a case of this kind, since who tells last
- * is not told whether it was heard; in this one two reductions have to fail in a row on one rank.  What a phase of the solver has no use for is called all the same.
+ * ranks when they hear of a failure.  What a phase of the solver has no use for is called all the same.
+ *
+ * All ranks end in the same call but where a reduction in which others hear of a failure, and the next one, too, fail on a rank: it
+ * cannot know that they have left.  Any rule for leaving has a case of this kind, since who tells last is not told whether it was
+ * heard; in this one two reductions have to fail in a row on one rank.
  *
  * In a network that is not shared all this does nothing, and says true.
  */

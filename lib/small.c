@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* Ritz values beyond this say no more than that there is nothing to be found: for numbers of ghosts that are those of no coupling. */
+/* Ritz values beyond this say no more than that ghosts have brought numbers that are those of no coupling. */
 #define LARGEST 1e120
 
 /* Turns coordinates i and j of A so that A[i][j] vanishes; V collects the turns. */

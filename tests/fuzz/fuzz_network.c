@@ -367,7 +367,7 @@ static bool build(scene *s)
     keep_stiffness(s, s->options ? s->options->stiffness : NULL);
     s->walls = (size_t)s->particles->wall_count;
     s->bodies = (size_t)s->particles->count + s->walls;
-    return true;
+    return s->bodies <= ROOM / (3 * sizeof(double)); /* of walls there may be any number, and for more there is no room here */
 }
 
 /* The status of a call that has been made: the arrays as they were, or finite. */
