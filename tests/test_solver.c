@@ -46,6 +46,10 @@ START_TEST(crowded_sphere)
         ck_assert_int_eq(r.status & ~NLC_WARNING_CLOSE, NLC_OK);
         ck_assert(r.error <= tolerance);
         ck_assert_int_le(r.info.sweeps, 30);
+        const trial again = solve_at(&s, &e, 1, tolerance); /* from the solution */
+        ck_assert_int_eq(again.status, r.status);
+        ck_assert(again.error <= tolerance);
+        ck_assert_int_le(again.info.sweeps, 2);
     }
     s.options.method = NLC_METHOD_FIXED_POINT;
     s.network = 0;
