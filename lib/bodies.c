@@ -83,7 +83,7 @@ static double least_ratio(const nlc_network *n)
         least = n->radius[k] < least ? n->radius[k] : least;
         largest = n->radius[k] > largest ? n->radius[k] : largest;
     }
-    return !nlc_is_finite(largest) || !(largest > 0) ? 0 : least / largest;
+    return largest > 0 ? least / largest : 0; /* all are finite; there may be none */
 }
 
 void nlc_set_bodies(nlc_network *n, const nlc_particles *p)
