@@ -543,8 +543,9 @@ START_TEST(coincidences)
         planet(&s, round % 3 ? EVEN : POLE, count, 1e-2, &g);
         s.options.model = round < 6 ? NLC_MODEL_GONZALEZ_CUITINO : NLC_MODEL_SPHERE;
         int64_t first = s.contacts;
-        for (int copies = 0; copies < (round % 4 == 3 ? 60 : 3); copies++) { /* 60: more in one place than a leaf of the tree holds; the culprit is the first that has an earlier one */
-            const int64_t c = 1 + (int64_t)rng_below(&g, (uint64_t)s.contacts - 1), d = round % 4 == 3 ? 0 : (int64_t)rng_below(&g, (uint64_t)c);
+        const bool many = round % 4 == 3; /* in one place, more than a leaf of the tree holds */
+        for (int copies = 0; copies < (many ? 60 : 3); copies++) { /* the culprit is the first that has an earlier one */
+            const int64_t c = 1 + (int64_t)rng_below(&g, (uint64_t)s.contacts - 1), d = many ? 0 : (int64_t)rng_below(&g, (uint64_t)c);
             const double sign = (s.i[c] == 0) == (s.i[d] == 0) ? 1 : -1;
             for (int x = 0; x < 3; x++) s.normal[3 * c + x] = sign * s.normal[3 * d + x];
         }

@@ -389,8 +389,8 @@ START_TEST(what_is_not_in_use)
 END_TEST
 
 /*
- * The same in a long chain to a close tolerance, in the middle and at the walls where it begins and ends: without what was solved for in the region
- * the whole would take more sweeps.  To 1e-12 a contact that doubles is felt a dozen neighbours away; and one sweep is none too many.
+ * The same in a long chain to a close tolerance, in the middle and at the walls where it begins and ends: without what was solved for
+ * in the region the whole would take more sweeps.  To 1e-12 a contact that doubles is felt a dozen neighbours away; and one sweep is none too many.
  */
 START_TEST(only_what_moves_in_a_chain)
 {
@@ -460,7 +460,8 @@ START_TEST(hardest_is_rigid)
                 s.options.model = model;
                 s.options.tolerance = 1e-12;
                 const int32_t soft = scene_material(&s, 1e-150, 0.3);
-                const int32_t hard = scene_material(&s, rigid ? INFINITY : pow(10, ratio - 150), 0.3), wall_too = scene_material(&s, INFINITY, 0);
+                const int32_t hard = scene_material(&s, rigid ? INFINITY : pow(10, ratio - 150), 0.3);
+                const int32_t wall_too = scene_material(&s, INFINITY, 0);
                 scene_particle(&s, 1, hard);
                 for (int k = 0; k < 6; k++) scene_particle(&s, 1, soft);
                 const int32_t wall = (int32_t)s.particles + scene_wall(&s, wall_too);

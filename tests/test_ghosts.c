@@ -459,14 +459,16 @@ START_TEST(failing_beyond)
 END_TEST
 
 /*
- * A ball with three contacts .01 rad apart, where a solve loses its way and ends by applying the load in steps (310 sweeps with the portable
- * code; roundings decide); beside it a pair of balls on two other ranks.  Calls fail that have nothing to do with it.
+ * A ball with three contacts .01 rad apart, where a solve loses its way and ends by applying the load in steps (310 sweeps with the
+ * portable code; roundings decide); beside it a pair of balls on two other ranks.  Calls fail that have nothing to do with it.
  */
 START_TEST(failing_in_load_steps)
 {
     static const double overlap[] = {0.0231556564156864, 0.0223094445248736, 0.0087343488652229, -0.0077720017073664};
-    static const double n[][3] = {{-0.25977382853659, 0.829131630675211, -0.49503363221230}, {-0.552406662383053, -0.632992270874211, 0.542372256267156},
-                                  {-0.540418760671444, -0.627446357183499, 0.560587755816605}, {-0.538097802732749, -0.618323049466025, 0.572824022884187}};
+    static const double n[][3] = {{-0.25977382853659, 0.829131630675211, -0.49503363221230},
+                                  {-0.552406662383053, -0.632992270874211, 0.542372256267156},
+                                  {-0.540418760671444, -0.627446357183499, 0.560587755816605},
+                                  {-0.538097802732749, -0.618323049466025, 0.572824022884187}};
     rng g = {6};
     scene s;
     ranks w;

@@ -144,7 +144,8 @@ START_TEST(nearly_one_place_in_a_crowd)
     scene_particle(&s, 1, scene_material(&s, 1e6, 0.3));
     const int32_t wall = 1 + scene_wall(&s, scene_material(&s, INFINITY, 0));
     for (int k = 0; k < z; k++) { /* a spiral of evenly spread directions, the second one moved beside the first */
-        const double h = 1 - (2 * (k == 1 ? 0 : k) + 1.) / z, r = sqrt(1 - h * h), phi = k == 1 ? 1e-3 : 3.14159265358979324 * (1 + sqrt(5)) * k;
+        const double h = 1 - (2 * (k == 1 ? 0 : k) + 1.) / z, r = sqrt(1 - h * h);
+        const double phi = k == 1 ? 1e-3 : 3.14159265358979324 * (1 + sqrt(5)) * k;
         const double overlap = k == 0 ? 2e-5 : k == 1 ? 1.9e-6 : 1e-9;
         scene_contact(&s, _i / 2 ? wall : 0, _i / 2 ? 0 : wall, overlap, sign * r * cos(phi), sign * r * sin(phi), sign * h);
     }
@@ -451,7 +452,8 @@ START_TEST(softest_on_a_sphere)
                 s.options.stiffness = stiffness;
                 s.options.tolerance = 1e-10;
                 const double angle = 0.2 + 0.15 * third;
-                const int32_t m = scene_material(&s, 1e9, 0.3), p = scene_particle(&s, 1, m), wall = 1 + scene_wall(&s, scene_material(&s, INFINITY, 0));
+                const int32_t p = scene_particle(&s, 1, scene_material(&s, 1e9, 0.3));
+                const int32_t wall = 1 + scene_wall(&s, scene_material(&s, INFINITY, 0));
                 for (int c = 0; c < count; c++)
                     scene_contact(&s, p, wall, 0.02, c == 2 ? cos(angle) : 1 - 2 * c, c == 2 ? sin(angle) : 0, 0);
                 nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, &info) & ~NLC_WARNING_CLOSE, NLC_OK));
