@@ -198,6 +198,7 @@ END_TEST
 
 START_TEST(counts_strides_and_memory)
 {
+    ck_assert_uint_eq(nlc_network_size(0, 5, &f.options), 0);
     WITH(f.s.contacts, -1, init(), NLC_ERROR_COUNT, 6);
     WITH(f.s.contacts, INT64_MAX, init(), NLC_ERROR_COUNT, 6);
     WITH(f.s.contacts, INT64_MAX / 16, init(), NLC_ERROR_COUNT, 6);
