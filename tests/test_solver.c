@@ -337,7 +337,7 @@ START_TEST(after_fixed_point)
 END_TEST
 
 /*
- * A ball between four walls that is pressed so much harder than in the step before that it comes to touch two more, which were left
+ * A ball between eight walls that is pressed so much harder than in the step before that it comes to touch two more, which were left
  * out: with every number of sweeps allowed, also where they are used up just when that is found, the status says whether it is solved.
  * (The ball is i or j.)
  */
@@ -346,26 +346,26 @@ START_TEST(touches_with_the_last_sweep)
     const double sign = _i ? -1 : 1;
     scene s;
     nlc_info info = {.struct_size = sizeof info};
-    long double solution[14];
+    long double solution[18];
     int64_t needed = 0;
     scene_init(&s);
     s.options.tolerance = 1e-6;
     const int32_t p = scene_particle(&s, 1, scene_material(&s, 1e9, 0.45)), rigid = scene_material(&s, INFINITY, 0);
-    for (int k = 0; k < 6; k++) {
-        const double n[3] = {(k == 0) - (k == 1), (k == 2) - (k == 3), (k == 4) - (k == 5)};
+    for (int k = 0; k < 10; k++) { /* eight around the equator, and the poles */
+        const double turn = 0.785398163397448 * k, n[3] = {k < 8 ? cos(turn) : 0, k < 8 ? sin(turn) : 0, (k == 8) - (k == 9)};
         const int32_t wall = 1 + scene_wall(&s, rigid);
-        scene_contact(&s, _i ? wall : p, _i ? p : wall, k < 4 ? 0.15 : -0.034, sign * n[0], sign * n[1], sign * n[2]);
+        scene_contact(&s, _i ? wall : p, _i ? p : wall, k < 8 ? 0.15 : -0.078, sign * n[0], sign * n[1], sign * n[2]);
     }
     for (int k = 0; k < 8; k++) scene_contact(&s, p, 1 + scene_wall(&s, rigid), -1, k % 2 ? 1 : -1, k / 2 % 2 ? 1 : -1, k / 4 ? 1 : -1);
     scene_oracle(&s, 1, solution);
-    ck_assert(solution[4] > 0.01L * solution[0]);
+    ck_assert(solution[8] > 0.01L * solution[0]);
     for (int64_t most = 30; most > 0; most--) {
         s.options.max_sweeps = most;
         s.network = 0;
         ck_assert_int_eq(scene_build(&s), NLC_OK);
         for (int step = 0; step < 2; step++) {
-            for (int k = 0; k < 4; k++) s.overlap[k] = step ? 0.15 : 1e-3;
-            const nlc_status status = scene_solve(&s, &info);
+            for (int k = 0; k < 8; k++) s.overlap[k] = step ? 0.15 : 1e-3;
+            const nlc_status status = scene_solve(&s, &info) & ~NLC_WARNING_CLOSE; /* the circles nearly meet */
             ck_assert_int_le(info.sweeps, most);
             if (step == 0) continue;
             const double error = scene_error(&s, s.force, solution);
