@@ -459,10 +459,10 @@ START_TEST(failing_beyond)
 END_TEST
 
 /*
- * A ball with three contacts .01 rad apart, where a solve loses its way and ends by applying the load in steps (310 sweeps with the
- * portable code; roundings decide); beside it a pair of balls on two other ranks.  Calls fail that have nothing to do with it.
+ * A ball with three contacts .01 rad apart, where a solve begins anew several times; beside it a pair of balls on two other ranks.  Calls
+ * fail that have nothing to do with it.
  */
-START_TEST(failing_in_load_steps)
+START_TEST(failing_beside_a_hard_one)
 {
     static const double overlap[] = {0.0231556564156864, 0.0223094445248736, 0.0087343488652229, -0.0077720017073664};
     static const double n[][3] = {{-0.25977382853659, 0.829131630675211, -0.49503363221230},
@@ -486,7 +486,7 @@ START_TEST(failing_in_load_steps)
     ranks_run(&w, rank_solve);
     agree(&w);
     const int64_t calls = rank_calls(&w.rank[0]);
-    if (verbose()) printf("load steps: status %d, %jd sweeps, %jd calls\n", w.rank[0].status, (intmax_t)w.rank[0].info.sweeps, (intmax_t)calls);
+    if (verbose()) printf("beside a hard one: status %d, %jd sweeps, %jd calls\n", w.rank[0].status, (intmax_t)w.rank[0].info.sweeps, (intmax_t)calls);
     for (int q = 0; q < RANKS; q++) put_back(&w.rank[q], &k[q]);
     for (int64_t at = 1; at < calls; at += 1 + (int64_t)rng_below(&g, 1 + (uint64_t)calls / 4))
         fail_once(&w, rank_solve, at, 1 + (unsigned)rng_below(&g, 6), false);
@@ -1110,7 +1110,7 @@ int main(void)
     tcase_add_test(t, alone_after_a_failure);
     tcase_add_loop_test(t, failing_twice, 0, 4);
     tcase_add_loop_test(t, odd_numbers, 0, 2 * MODELS);
-    tcase_add_test(t, failing_in_load_steps);
+    tcase_add_test(t, failing_beside_a_hard_one);
     tcase_add_loop_test(t, wrong_arguments, 0, MODELS);
     tcase_add_test(t, other_errors);
     suite_add_tcase(suite, t);
