@@ -269,7 +269,7 @@ static void list(void)
     for (int64_t c = 0; c < now.count; c++) now.key[c] = (uint64_t)now.i[c] << 32 | (uint64_t)now.j[c];
     carry(now.nonlocal, old.nonlocal);
     carry(now.previous, old.previous);
-    memory_size = nlc_network_size(&p, now.count, NULL);
+    memory_size = nlc_network_size(&p, now.count, &options);
     use(memory, memory_size);
     network = build(memory);
     set_options(network);
@@ -383,6 +383,7 @@ static void assemble(nlc_status status)
 
 static void begin_cycle(void)
 {
+    const nlc_particles p = particles();
     static const double light[] = {0.01, 0.03, 0.06}, hard[] = {0.132, 0.14}; /* of [GC] Case I the branch ends at 0.13 */
     const int32_t kinds = nlc_model_count() + 1; /* one more for the other points of the half-space */
     const int32_t kind = (int32_t)(cycle % kinds);
@@ -397,6 +398,11 @@ static void begin_cycle(void)
     if (depth < 0.02 && below(4) == 0) options.method = NLC_METHOD_FIXED_POINT;
     feclearexcept(FE_ALL_EXCEPT);
     errno = 0;
+    if (network && nlc_network_size(&p, now.count, &options) > memory_size) { /* it has to be built anew */
+        const nlc_status status = nlc_set_options(network, &options, NULL);
+        if (status != NLC_ERROR_MEMORY_SIZE) fail("nlc_set_options in too little memory", status, 0);
+        network = NULL;
+    }
     if (network) set_options(network);
     started = 0, stable = 1;
     most_energy = work = 0;
