@@ -24,7 +24,7 @@ static void look(search *s, int64_t p, int64_t begin, int64_t end)
     const double *a = s->tree.values + 4 * p;
     for (int64_t q = begin; q < end; q++) {
         const double *b = s->tree.values + 4 * q, x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2], r = a[3] + b[3];
-        const double excess = x * x + y * y + z * z - r * r;
+        const double excess = x * x + y * y + z * z - r * fabs(r); /* r < 0: nothing is there */
         if (excess >= s->least) continue;
         if (s->all) note(s, p, q);
         else s->least = excess;

@@ -5,6 +5,8 @@
 #include "parallel.h"
 #include "tree.h"
 
+#define NO_CIRCLE -4.0 /* radii are at most 2 */
+
 static double alone(const nlc_network *n, const double *overlap, int64_t c)
 {
     return nlc_alone(overlap[c], nlc_answer(n, c));
@@ -13,7 +15,8 @@ static double alone(const nlc_network *n, const double *overlap, int64_t c)
 /*
  * Radius of a contact's circle, a^2 = R_eff x with 1/R_eff = 1/R_i + 1/R_j ([GC] 7 and 8), in units of the particle's R.  One
  * that its neighbour has pushed open counts with the circle that it would have alone: there might be another solution, in
- * which it is the neighbour that is open.
+ * which it is the neighbour that is open.  An open one that would be open alone, too, has no circle: so far below 0 that its sum with
+ * any other radius is, whether it is looked at or left out of the iteration makes no difference.
  */
 static double radius_of(const nlc_network *n, int64_t c, int64_t particle, const double *overlap)
 {
@@ -21,6 +24,7 @@ static double radius_of(const nlc_network *n, int64_t c, int64_t particle, const
     const bool wall = other >= n->particle_count;
     const double x = alone(n, overlap, c), R = n->radius[particle];
     const double r = wall ? 0 : R, s = wall ? 1 : n->radius[other], larger = r > s ? r : s;
+    if (x <= 0) return NO_CIRCLE;
     const double quarter = 0.125 * (x + fabs(x)), capped = quarter < R ? quarter : R; /* a beyond 2 R is as good as 2 R */
     /* R_eff / R = s / (r + s), by ratios that are at most 1; of a choice between quotients clang 16 computes both */
     return 2 * sqrt(capped / R * (s / larger / (r / larger + s / larger)));
@@ -32,7 +36,7 @@ static double excess(const nlc_block *a, const nlc_block *b, int c, int count)
     double sum[NLC_BLOCK], total = 0;
     for (int d = 0; d < count; d++) {
         const double x = a->x[c] - b->x[d], y = a->y[c] - b->y[d], z = a->z[c] - b->z[d], r = a->force[c] + b->force[d];
-        const double v = r * r - (x * x + y * y + z * z);
+        const double v = r * fabs(r) - (x * x + y * y + z * z);
         sum[d] = v + fabs(v);
     }
     for (int d = 0; d < count; d++) total += sum[d];
