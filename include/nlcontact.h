@@ -557,7 +557,7 @@ typedef struct nlc_options {
     int32_t method;          /* NLC_METHOD_...: how much memory a network takes, too, see nlc_network_size */
     double tolerance;        /* of the forces, see nlc_solve; 0: 1e-8; more than 1 counts as 1 */
     int64_t max_sweeps;      /* of a solve, which never does more (on ranks 2, where this is 1); 0: 1000 */
-    double prefactor;        /* G of NLC_MODEL_HALF_SPACE, 2^-100 to 2^100; other models do not look at it; 0: 1 */
+    double prefactor;        /* G of NLC_MODEL_HALF_SPACE, from 2^-100 to below 2^100; other models do not look at it; 0: 1 */
     int32_t simd;            /* NLC_SIMD_... */
     int32_t points;          /* NLC_POINTS_... of NLC_MODEL_HALF_SPACE, other models do not look at it */
     const double *stiffness; /* [contacts] k of P = k x^(3/2) for hosts with a law of their own; NULL: n_H.  Copied. */
