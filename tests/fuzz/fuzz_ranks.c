@@ -141,13 +141,25 @@ static void combine_sides(void)
     }
 }
 
+static void add(double *a, double *b, int32_t count)
+{
+    for (int32_t k = 0; k < count; k++) a[k] = b[k] = a[k] + b[k];
+}
+
+static void take_larger(double *a, double *b, int32_t count)
+{
+    for (int32_t k = 0; k < count; k++) a[k] = b[k] = a[k] > b[k] ? a[k] : b[k];
+}
+
+/* Two loops: of a choice in one, compilers make both, and the sum of what has just to be compared may overflow. */
 static void combine(int kind, int32_t count)
 {
-    if (kind == EXCHANGE) combine_sides();
-    for (int32_t k = 0; kind != EXCHANGE && k < count; k++) {
-        const double a = ranks[0].values[k], b = ranks[1].values[k];
-        demand(!isnan(a) && !isnan(b), "a number to be reduced");
-        ranks[0].values[k] = ranks[1].values[k] = kind == SUMS ? a + b : a > b ? a : b;
+    double *a = ranks[0].values, *b = ranks[1].values;
+    for (int32_t k = 0; kind != EXCHANGE && k < count; k++) demand(!isnan(a[k]) && !isnan(b[k]), "a number to be reduced");
+    switch (kind) {
+    case EXCHANGE: combine_sides(); break;
+    case SUMS: add(a, b, count); break;
+    default: take_larger(a, b, count);
     }
 }
 
