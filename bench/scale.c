@@ -20,7 +20,7 @@ static const char usage[] =
 
 /* Cells along an edge: half decades of contacts. */
 static const int cells[] = {4, 5, 7, 11, 16, 24, 35, 51, 75};
-enum { SIZES = sizeof cells / sizeof cells[0], SETTLE = 5, MOST_RUNS = 21, EXIT_USAGE = 2 };
+enum { SIZES = sizeof cells / sizeof cells[0], SETTLE = 20, MOST_RUNS = 21, EXIT_USAGE = 2 };
 #define RUN_TIME 5e-4 /* seconds that the calls of a run take at least */
 #define WORK 1e6      /* contacts times runs */
 #define TOLERANCE 1e-6
