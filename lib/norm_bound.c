@@ -10,7 +10,7 @@
 #include "structs.h"
 #include "warm.h"
 
-#define FEW 16       /* a particle in so many may have its block looked at, each element of it */
+#define FEW 8        /* a particle in so many may have its block looked at, each element of it */
 
 /* The particle's contacts with their weights; false: they do not fit. */
 static bool gather(nlc_block *b, const nlc_iteration *q, int64_t particle)
