@@ -36,51 +36,7 @@
 #define TINY 0x1p-100 /* keeps t from 0; too small to change a t from NEAR on */
 #define FAR 20000     /* of so few contacts everything is in the second cache: to fetch it ahead would cost more than it saves */
 
-/* What is known of one contact of each of the particles. */
-typedef struct place {
-    _Alignas(8 * LANES) double x[LANES], y[LANES], z[LANES]; /* outward unit normal */
-    double force[LANES];                                     /* times U, from where it has been met on */
-    double weight[LANES];                                    /* where it is asked for */
-    double displacement[LANES];
-} place;
-
-typedef struct group {
-    place at[NLC_BLOCK];
-    int64_t particle[LANES], begin[LANES], count[LANES]; /* of the particles' lists */
-    const int64_t *list[LANES];
-    int64_t places, all; /* the largest count and the least */
-    _Alignas(8 * LANES) double scale[LANES], c0[LANES], c1[LANES], c2[LANES];
-    double largest[LANES], closest[LANES], squares[LANES]; /* |force|; squared distance; see variant.h */
-} group;
-
-/* Where there are not enough particles the last one takes several lanes. */
-static void choose(group *g, const nlc_network *n, const int32_t *particle, int count)
-{
-    g->places = 0;
-    g->all = NLC_BLOCK;
-    for (int l = 0; l < LANES; l++) {
-        const int64_t k = particle[l < count ? l : count - 1];
-        const nlc_kernel *kernel = nlc_kernel_of(n, k);
-        g->particle[l] = k;
-        g->begin[l] = n->start[k];
-        g->count[l] = n->start[k + 1] - n->start[k];
-        g->list[l] = n->entry + g->begin[l];
-        g->places = g->count[l] > g->places ? g->count[l] : g->places;
-        g->all = g->count[l] < g->all ? g->count[l] : g->all;
-        g->scale[l] = nlc_scale_of(n, k);
-        g->c0[l] = kernel->c[0];
-        g->c1[l] = kernel->c[1];
-        g->c2[l] = kernel->c[2];
-    }
-}
-
-/* Where the particle of a lane has no further contact there is one without force. */
-static const double *nowhere(double row[3], int64_t d)
-{
-    row[0] = 2 + 2 * (double)d;
-    row[1] = row[2] = 0;
-    return row;
-}
+#include "lanes_group.h"
 
 /* What a group does about its coefficients. */
 typedef struct keeping {
@@ -91,55 +47,6 @@ typedef struct keeping {
 static int64_t room_for(int64_t places)
 {
     return LANES * places * (places - 1) / 2;
-}
-
-/* One place; plain: each lane has a contact there, and no contact is one of a particle with itself. */
-__attribute__((always_inline)) TARGET static inline void fill_place(group *g, const nlc_network *n, const double *force, int64_t stride,
-                                                                    const double *normal, bool known, int64_t d, bool plain)
-{
-    place *at = &g->at[d];
-    double none[3];
-    const double *v[LANES];
-    unsigned reversed = 0;
-#pragma GCC unroll 8
-    for (int l = 0; l < LANES; l++) {
-        if (!plain) {
-            at->force[l] = at->weight[l] = 0;
-            v[l] = nowhere(none, d);
-            if (d >= g->count[l]) continue;
-        }
-        const int64_t e = plain ? g->list[l][d] : nlc_side_at(n, normal, g->begin[l] + d), c = e >> 1;
-        v[l] = normal + 3 * c;
-        reversed |= (unsigned)(e & 1) << l;
-        at->force[l] = force[stride * c];
-        if (stride == 2) at->weight[l] = force[2 * c + 1];
-    }
-    if (!known) set_directions(at->x, at->y, at->z, v, reversed);
-}
-
-/* The contacts, place by place; forces are not yet times U.  stride 2: a weight stands behind each of them. */
-TARGET static void fill(group *g, const nlc_network *n, const double *force, int64_t stride, const double *normal, bool known)
-{
-    const int64_t plain = n->self_contacts ? 0 : g->all;
-    for (int64_t d = 0; d < plain; d++) fill_place(g, n, force, stride, normal, known, d, true);
-    for (int64_t d = plain; d < g->places; d++) fill_place(g, n, force, stride, normal, known, d, false);
-}
-
-/*
- * What the next group will want at one place of its lists, while this one is computed: without it the processor waits for memory
- * first and computes then.  Always inlined, for gcc takes a function that does no more than this for one without effect.
- */
-__attribute__((always_inline)) TARGET static inline void fetch(const nlc_network *n, const double *force, int64_t stride,
-                                                               const double *normal, const int32_t *particle, int64_t d)
-{
-    for (int l = 0; l < LANES; l++) {
-        const int64_t p = n->start[particle[l]] + d;
-        if (p >= n->start[particle[l] + 1]) continue;
-        const int64_t e = n->entry[p], c = e >> 1;
-        __builtin_prefetch(normal + 3 * c + 1);
-        __builtin_prefetch(force + stride * c);
-        __builtin_prefetch(n->side + e, 1);
-    }
 }
 
 TARGET static inline vec reciprocal_root(vec t)
@@ -164,7 +71,7 @@ TARGET static inline vec squared_distance(vec x, vec y, vec z, const place *b)
 }
 
 /* All pairs.  next: the particles of the next group, or NULL. */
-__attribute__((always_inline)) TARGET static inline void couple(group *g, const nlc_network *n, const double *from, int64_t stride,
+__attribute__((always_inline)) TARGET static inline void couple(group *g, const nlc_network *n, content what, const double *from,
                                                                 const double *normal, const int32_t *next, double *kept, bool known)
 {
     const vec c0 = load(g->c0), c1 = load(g->c1), c2 = load(g->c2), scale = load(g->scale);
@@ -175,7 +82,7 @@ __attribute__((always_inline)) TARGET static inline void couple(group *g, const 
         vec sum = set(0), weight = set(0);
         largest = max(largest, max(given, sub(set(0), given)));
         store(a->force, force);
-        if (next) fetch(n, from, stride, normal, next, c);
+        if (next) fetch(n, what, from, normal, next, c);
         for (place *b = g->at; b < a; b++) {
             vec k;
             if (known) {
@@ -189,10 +96,10 @@ __attribute__((always_inline)) TARGET static inline void couple(group *g, const 
             if (kept) kept += LANES;
             sum = muladd(k, load(b->force), sum);
             store(b->displacement, muladd(k, force, load(b->displacement)));
-            if (stride == 2) weight = muladd(mul(k, k), load(b->weight), weight);
+            if (what == WEIGHED) weight = muladd(mul(k, k), load(b->weight), weight);
         }
         store(a->displacement, sum);
-        if (stride == 2) squares = muladd(weight, load(a->weight), squares);
+        if (what == WEIGHED) squares = muladd(weight, load(a->weight), squares);
     }
     if (!known) store(g->closest, closest);
     store(g->squares, squares);
@@ -209,27 +116,18 @@ static bool leave(nlc_network *n, const double *force, const double *normal, int
 /* Forces alone or with weights; known coefficients, and others. */
 TARGET static void couple_forces(group *g, const nlc_network *n, const double *force, const double *normal, const int32_t *next, double *kept)
 {
-    couple(g, n, force, 1, normal, next, kept, false);
+    couple(g, n, FORCES, force, normal, next, kept, false);
 }
 
 TARGET static void couple_weighed(group *g, const nlc_network *n, const double *weighed, const double *normal, const int32_t *next,
                                   double *kept)
 {
-    couple(g, n, weighed, 2, normal, next, kept, false);
+    couple(g, n, WEIGHED, weighed, normal, next, kept, false);
 }
 
 TARGET static void couple_known(group *g, const nlc_network *n, const double *force, const double *normal, const int32_t *next, double *kept)
 {
-    couple(g, n, force, 1, normal, next, kept, true);
-}
-
-static inline void hand_out(const group *g, nlc_network *n, const double *normal, int l)
-{
-    const int64_t *list = g->list[l], plain = n->self_contacts ? 0 : g->count[l];
-    double *side = n->side;
-#pragma GCC unroll 4
-    for (int64_t d = 0; d < plain; d++) side[list[d]] = g->at[d].displacement[l];
-    for (int64_t d = plain; d < g->count[l]; d++) side[nlc_side_at(n, normal, g->begin[l] + d)] = g->at[d].displacement[l];
+    couple(g, n, FORCES, force, normal, next, kept, true);
 }
 
 /* Hands the results out; returns the first particle with two contacts in the same direction, or -1. */
@@ -290,9 +188,9 @@ static int64_t displace_window(nlc_network *n, const double *force, const double
         const int32_t *next = n->contact_count > FAR && q + 2 * LANES <= all ? sorted + q + LANES : NULL;
         choose(&g, n, sorted + q, count - q);
         const keeping kept = keep(n, &at, g.places, weighed);
-        if (weighed) fill(&g, n, weighed, 2, normal, false);
-        else if (kept.known) fill(&g, n, force, 1, normal, true);
-        else fill(&g, n, force, 1, normal, false);
+        if (weighed) fill(&g, n, WEIGHED, weighed, normal, false);
+        else if (kept.known) fill(&g, n, FORCES, force, normal, true);
+        else fill(&g, n, FORCES, force, normal, false);
         if (weighed)
             couple_weighed(&g, n, weighed, normal, next, kept.at);
         else if (kept.known)

@@ -16,26 +16,6 @@ typedef struct triangle {
     _Alignas(8 * LANES) double at[ROW(ROWS_MAX)][LANES];
 } triangle;
 
-TARGET static void fill_for_bound(group *g, const nlc_network *n, const double *root, const double *normal)
-{
-    for (int64_t d = 0; d < g->places; d++) {
-        place *at = &g->at[d];
-        double none[3];
-        const double *v[LANES];
-        unsigned reversed = 0;
-        for (int l = 0; l < LANES; l++) {
-            at->weight[l] = 0;
-            v[l] = nowhere(none, d);
-            if (d >= g->count[l]) continue;
-            const int64_t e = nlc_side_at(n, normal, g->begin[l] + d);
-            v[l] = normal + 3 * (e >> 1);
-            reversed |= (unsigned)(e & 1) << l;
-            at->weight[l] = root[e];
-        }
-        set_directions(at->x, at->y, at->z, v, reversed);
-    }
-}
-
 /* -B below the diagonal; on it there is nothing. */
 TARGET static void set_blocks(triangle *A, group *g)
 {
@@ -96,7 +76,7 @@ static void mark_above(nlc_network *n, const double *root, const double *normal,
     for (int q = 0; q < count; q += LANES) {
         choose(&g, n, sorted + q, count - q);
         if (g.places > ROWS_MAX) continue;
-        fill_for_bound(&g, n, root, normal);
+        fill(&g, n, ROOTS, root, normal, false);
         set_blocks(&A, &g);
         find_pivots(&A, &g, limit);
         for (int l = 0; l < LANES; l++) n->changed[g.particle[l]] = !(g.squares[l] > ROUNDED * limit && g.closest[l] >= NEAR);

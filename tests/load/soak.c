@@ -30,6 +30,7 @@
 #include <sys/resource.h>
 
 #include "nlcontact.h"
+#include "random.h"
 
 enum { CELLS = 3, SPHERES = 4 * CELLS * CELLS * CELLS, WALLS = 6, CONTACTS = 32 * SPHERES, MATERIALS = 3 };
 enum { GUARD = 64, GUARDED = 32, CYCLE = 500, COMPARED = 61 };
@@ -59,7 +60,7 @@ static void *memory, *other_memory, *cache, *working;
 static size_t memory_size, cache_size;
 
 static int64_t number, cycle, lists, compared, bits, weakened, close_by, unconverged, energies, sweeps;
-static uint64_t state, seed, checksum;
+static uint64_t seed, checksum;
 static double depth, reach, listed_reach, energy, work, most_energy, worst_work, worst_force;
 static int started, stable; /* there is a step before, in this cycle; all of the cycle so far has an energy */
 
@@ -69,24 +70,6 @@ static void fail(const char *what, double a, double b)
             (long long)number, (unsigned long long)seed, (int)options.model, (int)options.points, options.tolerance, depth,
             what, a, b);
     exit(1);
-}
-
-static uint64_t next(void) /* splitmix64 */
-{
-    uint64_t z = state += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return z ^ (z >> 31);
-}
-
-static int64_t below(int64_t n)
-{
-    return (int64_t)(next() % (uint64_t)n);
-}
-
-static double uniform(double low, double high)
-{
-    return low + (high - low) * 0x1p-53 * (double)(next() >> 11);
 }
 
 /* ----------------------------------------------------------------------------------------- memory that nobody may leave -- */

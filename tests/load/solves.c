@@ -18,6 +18,7 @@
 #include <sys/resource.h>
 
 #include "nlcontact.h"
+#include "random.h"
 
 enum { PARTICLES = 7, WALLS = 2, CONTACTS = 24, MATERIALS = 3, GUARD = 64 };
 
@@ -37,27 +38,9 @@ typedef struct result {
     nlc_status status;
 } result;
 
-static uint64_t state, seed;
+static uint64_t seed;
 static int64_t number; /* of the network */
 static int64_t solves, weakened, close_by, unconverged, compared, by_fixed_point, wrong;
-
-static uint64_t next(void) /* splitmix64 */
-{
-    uint64_t z = state += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return z ^ (z >> 31);
-}
-
-static int64_t below(int64_t n)
-{
-    return (int64_t)(next() % (uint64_t)n);
-}
-
-static double uniform(double low, double high)
-{
-    return low + (high - low) * 0x1p-53 * (double)(next() >> 11);
-}
 
 static void fail(const char *what, double a, double b)
 {
