@@ -130,6 +130,40 @@ START_TEST(nearly_one_place)
 END_TEST
 
 /*
+ * A contact whose circle is a tenth of its sphere's radius (overlap .02, a^2 = R x / 2) beside one that is open, has a circle of a
+ * fiftieth, or a circle further off: the warning is for circles that overlap, whatever the start, the method, and whether the search for
+ * them has a tree (from 128 contacts on).  Who is open has no circle, though it may be inside another one's.
+ */
+START_TEST(circles_that_overlap)
+{
+    static const struct { double overlap, angle; nlc_status status; } beside[] = {
+        {-0.05, 0.05, NLC_OK}, {-0.05, 0.01, NLC_OK}, {8e-4, 0.06, NLC_WARNING_CLOSE}, {8e-4, 0.3, NLC_OK}, {-0.05, 0.3, NLC_OK}};
+    for (size_t k = 0; k < sizeof beside / sizeof *beside; k++) {
+        const double angle = beside[k].angle;
+        scene s;
+        nlc_info info = {.struct_size = sizeof info};
+        scene_init(&s);
+        s.options.method = _i % 2 ? NLC_METHOD_FIXED_POINT : NLC_METHOD_AUTOMATIC;
+        scene_particle(&s, 1, scene_material(&s, 1e6, 0.4));
+        const int32_t other = scene_material(&s, 1e6, 0.4);
+        for (int c = 0; c < 3; c++) {
+            scene_particle(&s, 1, other);
+            const double at = c < 2 ? 0 : angle;
+            scene_contact(&s, 0, c + 1, c < 2 ? 0.02 : beside[k].overlap, sin(at), 0, c == 1 ? -cos(at) : cos(at));
+        }
+        for (int c = 0; c < (_i / 2 ? 150 : 0); c++) { /* around the equator, all open */
+            scene_particle(&s, 1, other);
+            scene_contact(&s, 0, c + 4, -0.1, cos(0.04 * c), sin(0.04 * c), 0);
+        }
+        ck_assert_int_eq(scene_solve(&s, &info), beside[k].status);
+        ck_assert(_i % 2 || s.force[0] > 0);
+        for (int again = 0; again < 2; again++) ck_assert_int_eq(scene_solve(&s, &info), beside[k].status);
+        scene_free(&s);
+    }
+}
+END_TEST
+
+/*
  * Two contacts in nearly one place among a thousand that hardly touch, too many to settle them one by one: the larger overlap stays, the
  * other one is pushed open, whichever body the ball with all of them is called.
  */
@@ -806,6 +840,7 @@ int main(void)
     tcase_add_test(t, linear_equations);
     tcase_add_test(t, after_fixed_point);
     tcase_add_loop_test(t, touches_with_the_last_sweep, 0, 2);
+    tcase_add_loop_test(t, circles_that_overlap, 0, 4);
     tcase_add_test(t, idle_candidates_in_one_place);
     tcase_add_loop_test(t, soft_and_open, 0, 2);
     tcase_add_test(t, softest_on_a_sphere);

@@ -136,6 +136,33 @@ START_TEST(whoever_does_it)
 }
 END_TEST
 
+/* A start far beyond what can be is cut by the largest overlap on a contact's particles. */
+START_TEST(far_starts_by_many)
+{
+    rng g = {5};
+    pool p = {.threads = 3};
+    scene s;
+    scene_init(&s);
+    s.options.tolerance = 1e-6;
+    scene_lattice(&s, FACE_CENTRED, 6, 1, 0.3, 0.02, 1e-2, &g);
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    double *force[2], *g_found[2];
+    for (int shared = 0; shared < 2; shared++) {
+        force[shared] = room(&s, 1);
+        g_found[shared] = room(&s, 1);
+        s.options.parallel_for = shared ? parallel_for : NULL;
+        s.options.parallel_context = &p;
+        ck_assert_int_eq(nlc_set_options(s.network, &s.options, NULL), NLC_OK);
+        for (int64_t c = 0; c < s.contacts; c++) g_found[shared][c] = 100 * s.overlap[c];
+        ck_assert_int_eq(nlc_solve(s.network, force[shared], g_found[shared], s.overlap, s.normal, NULL), NLC_OK);
+    }
+    ck_assert_int_eq(memcmp(force[0], force[1], (size_t)s.contacts * sizeof **force), 0);
+    ck_assert_int_eq(memcmp(g_found[0], g_found[1], (size_t)s.contacts * sizeof **force), 0);
+    for (int shared = 0; shared < 2; shared++) free(force[shared]), free(g_found[shared]);
+    scene_free(&s);
+}
+END_TEST
+
 /* Past the end of the stable branch, where the coupling is weakened. */
 START_TEST(weakened_by_many)
 {
@@ -327,6 +354,7 @@ int main(void)
     Suite *suite = suite_create("threads");
     TCase *t = tcase_create("threads");
     tcase_add_loop_test(t, whoever_does_it, 0, 10);
+    tcase_add_test(t, far_starts_by_many);
     tcase_add_test(t, weakened_by_many);
     tcase_add_test(t, crowds_by_many);
     tcase_add_test(t, same_error);
