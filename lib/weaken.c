@@ -171,7 +171,7 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
     const int64_t count = n->contact_count;
     double *x = n->spare[0], *y = n->spare[1], *best = n->spare[2], *kept = n->spare[3];
     pace p = new_pace();
-    bool cold, beyond = false;
+    bool cold, beyond = false, stepped = false; /* stepped: kept is Anderson's from then on */
     const bool twice = n->settings.model->self && nlc_on_any_rank(n, n->most_contacts > NLC_BLOCK);
     nlc_anderson h;
     start_from_overlaps(q, x);
@@ -195,8 +195,8 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
         nlc_anderson_meet(&h, x, y, &norm);
         p.waited = norm < 0.01 * p.mark ? 0 : p.waited + 1;
         p.mark = p.waited == 0 ? norm : p.mark;
-        if ((!h.pending && !is_good_start(start, norm, applied)) || (p.waited > PATIENCE && start < HERTZ)) {
-            start = start == GIVEN && !h.pending && q->kept ? KEPT : HERTZ;
+        if ((!stepped && !is_good_start(start, norm, applied)) || (p.waited > PATIENCE && start < HERTZ)) {
+            start = start == GIVEN && !stepped && q->kept ? KEPT : HERTZ;
             if (start == KEPT) memcpy(x, kept, (size_t)count * sizeof *x);
             else start_from_overlaps(q, x);
             nlc_anderson_reset(&h, FIRST_STEP);
@@ -218,6 +218,7 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
         }
         const double length = plain_step(&p, norm, applied);
         if (length > 0) nlc_anderson_reset(&h, length);
+        stepped = true;
         nlc_anderson_combine(&h, x, y);
         nlc_ask_particles(q, h.old_x, y, out);
         nlc_anderson_move(&h, x, y);
