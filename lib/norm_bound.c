@@ -62,8 +62,9 @@ double nlc_bound_by_norms(const nlc_iteration *q, double beta, nlc_info *info)
         const double m = (double)(n->start[k + 1] - n->start[k]), sum = known ? n->norm[k] : squares(q, k);
         double b = 2 * sum * (m - 1) / (m + (m < 1));
         if (!(b <= beta * beta)) {
+            if (looks-- == 0) return 1;
             info->blocks++;
-            if (looks-- == 0 || !is_below(q, k, beta)) return 1;
+            if (!is_below(q, k, beta)) return 1;
             b = beta * beta;
         }
         if (b <= largest) continue;
