@@ -246,7 +246,10 @@ int main(int argc, char **argv)
         return help ? EXIT_SUCCESS : EXIT_USAGE;
     }
     FILE *csv = csv_path ? fopen(csv_path, "w") : NULL;
-    if (csv_path && !csv) return fail(csv_path, strerror(errno)) ? EXIT_FAILURE : EXIT_SUCCESS;
+    if (csv_path && !csv) {
+        fail(csv_path, strerror(errno));
+        return EXIT_FAILURE;
+    }
     if (csv) fputs(RUNS_COLUMNS ",sweeps,error,status\n", csv);
     for (; k < argc; k++) status |= run(argv[k], csv);
     if (csv && (ferror(csv) | fclose(csv))) status = fail(csv_path, "cannot be written");

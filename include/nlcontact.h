@@ -521,9 +521,10 @@ typedef void (*nlc_parallel_callback)(void *context, void (*task)(void *work, in
  * The callbacks are called in turn by all ranks alike: exchange, reduce with sums, reduce with maxima, exchange ..., each always with
  * the same count.  They return 0, or any other number where they fail.  Then that rank returns NLC_ERROR_CALLBACK and the others
  * NLC_ERROR_REMOTE after at most two more reductions, and an exchange between them if it is due; only a failure of the very last
- * call comes too late for the others, which return what they have found.  A callback that brings a number that is not finite has
- * failed, too, with 0 for what it returned; so has an exchange that brings a larger one than any owner can have (in an iteration's own
- * units 2^450, else 2^1020).  Other wrong numbers give wrong results, which are finite.
+ * call comes too late for the others, which return what they have found.  A callback that brings a number that is not finite (but
+ * for a largest value, which may be infinite) has failed, too, with 0 for what it returned; so has an exchange that brings a larger
+ * one than any owner can have (in an iteration's own units 2^450, else 2^1020).  Other wrong numbers give wrong results, which are
+ * finite.
  *
  * All ranks make the same calls, however many of these fail and where, but for one case: where two reductions in a row fail on one
  * rank, and an error elsewhere has become known in the first of them, that rank calls reduce, and exchange if it is due, once
@@ -655,7 +656,8 @@ typedef struct nlc_network nlc_network;
  *
  * Refused for want of memory: nlc_set_options to options that need more than nlc_network_init was given;
  * nlc_tangent and nlc_tangent_bound of a coupled model without memory for the default options, with which everything is possible.
- * Returns a size that does not depend on anything else; 0 if an argument is invalid or the size overflows.
+ * Returns a size that does not depend on anything else; 0 if an argument is invalid or the size overflows.  (Options that name no
+ * model, method or points take as little as any: nlc_network_init says what is wrong with them.)
  */
 NLC_API size_t nlc_network_size(const nlc_particles *particles, int64_t contact_count, const nlc_options *options);
 
@@ -706,7 +708,7 @@ NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *opti
  * they are given room by options.cache: NLC_MODEL_SPHERE and NLC_MODEL_POINT_FORCE two numbers for each two contacts of a
  * particle, about 170 bytes a contact in a dense packing, for solves in two thirds of the time; NLC_MODEL_GONZALEZ_CUITINO and
  * NLC_MODEL_HALF_SPACE at undeformed points one number, but not in portable C, for solves in some four fifths of the time as long as
- * it all stays in the processor's caches.  The results are the same, bit for bit.  With less room as much is kept as it holds.
+ * it all stays in the processor's caches; beyond them, and in solves of one sweep, computing is quicker.  The results are the same, bit for bit.  With less room as much is kept as it holds.
  *
  * network   from nlc_network_init
  * Ask when the network has been made, and hand the memory over by nlc_set_options.  It must not be used by another network, or by
