@@ -11,13 +11,15 @@
 #include <math.h>
 #include <string.h>
 
-#if defined(__GLIBC__)
+#if defined(__x86_64__) && defined(__LP64__) && defined(__ELF__) && !defined(__CET__)
+#define OWN_SWITCH
+#elif defined(__GLIBC__)
 #include <ucontext.h> /* ten times as fast as threads, and not everywhere */
 #else
 #include <pthread.h>
 #endif
 
-enum { RANKS = 2, PARTICLES = 9, CONTACTS = 16, BODIES = PARTICLES + 1, STEPS = 4 };
+enum { RANKS = 2, PARTICLES = 9, CONTACTS = 16, BODIES = PARTICLES + 1, STEPS = 4, MOST_VALUES = 1000 };
 enum { ODD_OVERLAPS, ODD_NORMALS, ODD_STARTS, ODD_OPTIONS, ODD_FORCES }; /* what may be arbitrary */
 enum { RADIUS, MATERIAL, FIRST_BODY, SECOND_BODY, OVERLAP, NORMAL, STIFFNESS, MEMORY, FORCE, NONLOCAL, SIDES, RESULT, CHANGE, USED };
 _Static_assert((int)RANKS * (int)USED <= (int)ROOMS, "too few rooms");
@@ -58,7 +60,48 @@ static int task; /* what both do */
 
 static void begin(rank *r);
 
-#if defined(__GLIBC__)
+#if defined(OWN_SWITCH)
+
+/* swapcontext asks the system twice and has the address sanitizer forget what it knows of a stack; this takes a few instructions. */
+static void *stopped[RANKS]; /* where a rank waits: its stack, with what a function has to keep on top */
+static _Alignas(16) char stack[1 << 22]; /* of the second rank; the first one has that of the program */
+
+void fuzz_switch(void **from, void *to);
+__asm__(".text\n"
+        ".globl fuzz_switch\n"
+        "fuzz_switch:\n"
+        "    pushq %rbp\n    pushq %rbx\n    pushq %r12\n    pushq %r13\n    pushq %r14\n    pushq %r15\n    subq $8, %rsp\n"
+        "    stmxcsr (%rsp)\n    fnstcw 4(%rsp)\n" /* which exceptions trap is a matter of each rank */
+        "    movq %rsp, (%rdi)\n    movq %rsi, %rsp\n"
+        "    ldmxcsr (%rsp)\n    fldcw 4(%rsp)\n"
+        "    addq $8, %rsp\n    popq %r15\n    popq %r14\n    popq %r13\n    popq %r12\n    popq %rbx\n    popq %rbp\n    ret\n");
+
+static void pass_on(int from)
+{
+    fuzz_switch(&stopped[from], stopped[1 - from]);
+}
+
+static void begin_second(void)
+{
+    begin(&ranks[1]);
+    for (;;) pass_on(1); /* once: to a rank that waits or has finished */
+}
+
+static void begin_both(void)
+{
+    struct { /* as fuzz_switch leaves it, at the beginning of a program */
+        uint32_t csr;
+        uint16_t control, unused;
+        uint64_t registers[6];
+        void (*behind)(void);
+        uint64_t aligned;
+    } top = {.csr = 0x1f80, .control = 0x37f, .behind = begin_second};
+    stopped[1] = memcpy(stack + sizeof stack - sizeof top, &top, sizeof top);
+    begin(&ranks[0]);
+    while (!ranks[1].finished) pass_on(0);
+}
+
+#elif defined(__GLIBC__)
 
 static ucontext_t contexts[RANKS];
 static char stack[1 << 22]; /* of the second rank; the first one has that of the program */
@@ -141,26 +184,46 @@ static void combine_sides(void)
     }
 }
 
-static void add(double *a, double *b, int32_t count)
+/* Not watched, for speed: what is handed over is copied where sanitizers see it, and these are arrays of our own. */
+#if defined(__clang__)
+#define UNWATCHED __attribute__((no_sanitize("address", "undefined")))
+#else
+#define UNWATCHED
+#endif
+
+static double reduced[RANKS][MOST_VALUES];
+
+UNWATCHED static bool are_numbers(int32_t count)
 {
-    for (int32_t k = 0; k < count; k++) a[k] = b[k] = a[k] + b[k];
+    bool good = true;
+    for (int32_t k = 0; k < count; k++) good &= !isnan(reduced[0][k]) & !isnan(reduced[1][k]);
+    return good;
 }
 
-static void take_larger(double *a, double *b, int32_t count)
+UNWATCHED static void add(int32_t count)
 {
-    for (int32_t k = 0; k < count; k++) a[k] = b[k] = a[k] > b[k] ? a[k] : b[k];
+    for (int32_t k = 0; k < count; k++) reduced[0][k] += reduced[1][k];
+}
+
+UNWATCHED static void take_larger(int32_t count)
+{
+    for (int32_t k = 0; k < count; k++) reduced[0][k] = reduced[0][k] > reduced[1][k] ? reduced[0][k] : reduced[1][k];
 }
 
 /* Two loops: of a choice in one, compilers make both, and the sum of what has just to be compared may overflow. */
 static void combine(int kind, int32_t count)
 {
-    double *a = ranks[0].values, *b = ranks[1].values;
-    for (int32_t k = 0; kind != EXCHANGE && k < count; k++) demand(!isnan(a[k]) && !isnan(b[k]), "a number to be reduced");
-    switch (kind) {
-    case EXCHANGE: combine_sides(); break;
-    case SUMS: add(a, b, count); break;
-    default: take_larger(a, b, count);
+    const size_t size = (size_t)count * sizeof(double);
+    if (kind == EXCHANGE) {
+        combine_sides();
+        return;
     }
+    demand(count > 0 && count <= MOST_VALUES, "how much is to be reduced");
+    for (int q = 0; q < RANKS; q++) memcpy(reduced[q], ranks[q].values, size);
+    demand(are_numbers(count), "a number to be reduced");
+    if (kind == SUMS) add(count);
+    else take_larger(count);
+    for (int q = 0; q < RANKS; q++) memcpy(ranks[q].values, reduced[0], size);
 }
 
 static int meet(rank *r, double *values, int32_t count, int kind)
@@ -308,7 +371,7 @@ static void begin(rank *r)
     watch();
     r->status = perform(r);
     unwatch("a collective function");
-#if defined(__GLIBC__)
+#if defined(OWN_SWITCH) || defined(__GLIBC__)
     r->finished = true; /* of threads it is told by begin_second */
 #else
     if (r == ranks) r->finished = true;
