@@ -113,6 +113,13 @@ void take_unit(bytes *b, uint64_t salt, double n[3])
     n[2] = z;
 }
 
+bool is_large(const uint8_t *data, size_t size)
+{
+    uint64_t h = size;
+    for (size_t k = 0; k < size; k++) h = (h ^ data[k]) * UINT64_C(0x9e3779b97f4a7c15), h ^= h >> 29;
+    return h * UINT64_C(0xbf58476d1ce4e5b9) >> 58 == 0;
+}
+
 /* ---- memory whose ends cannot be crossed */
 
 static struct {

@@ -37,6 +37,9 @@ int64_t take_integer(bytes *b); /* likewise: counts, strides, sizes */
 
 void take_unit(bytes *b, uint64_t salt, double n[3]); /* a unit vector; by two bytes, and by what is given */
 
+/* Whether much work may be made of an input: of one in 64, by all of its bytes, so that what is derived from it is small again. */
+bool is_large(const uint8_t *data, size_t size);
+
 /* ---- memory whose ends cannot be crossed */
 
 enum { ROOMS = 48, ROOM = 1 << 20 };
