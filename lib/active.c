@@ -8,13 +8,6 @@
 
 #include <string.h>
 
-/*
- * A candidate whose displacement is known from the step before takes part if what is left of its gap is less than this part
- * of the largest overlap nearby, or of the displacement.  One of which nothing is known (0) does in any case if there is an
- * overlap on its bodies, at a start from nothing also one contact away.  A matter of speed only: to be wrong costs another solution.
- */
-#define NEAR 0.5
-
 static double largest_nearby(const nlc_network *n, int64_t c)
 {
     const double a = n->largest[n->i[c]], b = n->largest[n->j[c]];
@@ -59,6 +52,11 @@ static int64_t count_marks(nlc_network *n)
     return count;
 }
 
+/*
+ * A candidate whose displacement is known from the step before takes part if what is left of its gap is less than the largest
+ * overlap nearby, or than the displacement.  One of which nothing is known (0) does in any case if there is an overlap on its
+ * bodies, at a start from nothing also one contact away.  A matter of speed only: to be wrong costs another solution.
+ */
 int64_t nlc_mark_active(nlc_network *n, const double *overlap)
 {
     const bool cold = nlc_largest_magnitude(n->current, n->contact_count) <= 0;
@@ -67,7 +65,7 @@ int64_t nlc_mark_active(nlc_network *n, const double *overlap)
         const double g = n->current[c], x = overlap[c] + g, top = largest_nearby(n, c), scale = top > g ? top : g;
         const bool unknown = nlc_abs_bits(g) == 0;
         /* one that touched without an overlap anywhere near comes with a start cut down to x = 0 (start.c) */
-        const bool near = cold ? is_within_reach(n, c) : unknown ? top > 0 : x >= -NEAR * scale;
+        const bool near = cold ? is_within_reach(n, c) : unknown ? top > 0 : x >= -scale;
         n->mark[c] = x > 0 || overlap[c] > 0 || near ? NLC_IN : NLC_OUT;
     }
     return count_marks(n);

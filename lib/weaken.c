@@ -20,8 +20,9 @@
 #define GROWTH 4.0     /* of the residual: then back to the best, with shorter steps */
 #define STEPS 240
 #define PATIENCE 40 /* steps without the residual falling tenfold after which it begins again from Hertz */
-#define STALLED 5     /* steps in which the residual has not halved, after which so many plain ones follow, while ... */
-#define CURVED 1e-4   /* ... it is more than this part of the overlaps */
+#define STALLED 3     /* steps in which the residual has not halved, after which so many plain ones follow, while ... */
+#define CURVED 1e-6   /* ... it is more than this part of the overlaps; */
+#define MIXED 1e-4    /* or this one, where coefficients depend on the forces, so that slopes are others than those of the steps */
 #define LONG_STEP 4.0 /* a plain step after one that has changed the residual by little */
 
 static bool sweep(nlc_iteration *q, nlc_outcome *out)
@@ -152,12 +153,12 @@ static pace new_pace(void)
  * residual has a minimum that is none, and combinations of steps stay there.  Plain steps get away, slowly, all along the same
  * direction: there they may be long, until the others come up.
  */
-static double plain_step(pace *p, double norm, double applied)
+static double plain_step(pace *p, double norm, double least)
 {
     const bool steady = norm > 0.6 * p->last && norm < 1.6 * p->last;
     p->last = norm;
     if (++p->steps % STALLED == 0) {
-        if (norm > 0.25 * p->then && norm > CURVED * CURVED * applied) p->plain = STALLED;
+        if (norm > 0.25 * p->then && norm > least) p->plain = STALLED;
         p->then = norm;
     }
     if (p->plain == 0) return 0;
@@ -176,6 +177,7 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
     nlc_anderson h;
     start_from_overlaps(q, x);
     const double applied = applied_overlaps(q, x, best, &cold); /* best is the start given */
+    const double curved = nlc_is_linear(n->settings.model->shape) ? CURVED : MIXED, least = curved * curved * applied;
     int start = !cold && !(q->kept && q->nearer) ? GIVEN : q->kept ? KEPT : HERTZ;
     nlc_anderson_start(&h, n, 1, kept, n->spare[4], NLC_FARTHEST); /* what is kept is looked at before the first step only */
     nlc_anderson_reset(&h, FIRST_STEP);
@@ -216,7 +218,7 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
             h.smallest = norm;
             memcpy(best, x, (size_t)count * sizeof *best);
         }
-        const double length = plain_step(&p, norm, applied);
+        const double length = plain_step(&p, norm, least);
         if (length > 0) nlc_anderson_reset(&h, length);
         stepped = true;
         nlc_anderson_combine(&h, x, y);
