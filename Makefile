@@ -132,7 +132,7 @@ bench: $(addprefix $(B)/bench/,bench roofline steps functions tradeoff skipping 
 bench-large: $(B)/bench/tradeoff $(B)/bench/scale ## the same on ten million contacts; some 20 minutes and 4 GB
 	@mkdir -p $(RESULTS)
 	@$(B)/bench/scale --csv $(RESULTS)/scale_large.csv 1.1e7
-	@$(B)/bench/tradeoff --csv $(RESULTS)/tradeoff_large.csv lattice:75
+	@$(B)/bench/tradeoff --csv $(RESULTS)/tradeoff_large.csv ordered:lattice:75
 PLOTS ?= $(B)/plots
 plots: ## pictures of what make bench and bench-large have found, in build/plots (needs gnuplot: make setup-plots)
 	@command -v gnuplot >/dev/null || { echo 'no gnuplot: make setup-plots'; exit 1; }
