@@ -64,7 +64,7 @@ static bool find_displacements(const nlc_iteration *q)
         n->bound[k] = n->norm[k] = 0;
         if (n->scale[k] <= 0 || sum <= 0) continue;
         const double t = nearest(n, q->normal, k);
-        if (4 * (deepest / n->radius[k]) >= t) return false; /* circles of contact, a^2 <= R gamma, might overlap; or t = 0 */
+        if (deepest >= 0.25 * t * n->radius[k]) return false; /* circles of contact, a^2 <= R gamma, might overlap; or t = 0 */
         n->norm[k] = nlc_scale_of(n, k) * n->settings.model->most(nlc_kernel_of(n, k), sqrt(t));
         n->bound[k] = DOUBT * sum * n->norm[k];
     }

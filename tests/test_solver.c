@@ -520,6 +520,25 @@ START_TEST(nothing_to_start_from)
 }
 END_TEST
 
+/* An overlap so many times the radius that there is no such number, with a stiffness of the caller's, in a scene that looks loose. */
+START_TEST(overlap_beyond_radius)
+{
+    double stiffness[2] = {1e-100, 1e-200};
+    scene s;
+    scene_init(&s);
+    s.options.stiffness = stiffness;
+    const int32_t soft = scene_material(&s, 1, 0.3), stiff = scene_material(&s, 1e160, 0.3);
+    for (int k = 0; k < 4; k++) scene_particle(&s, k == 2 ? 1e-155 : 1, k == 2 ? stiff : soft);
+    scene_contact(&s, 0, 1, 1e-40, 0, 0, 1);
+    scene_contact(&s, 2, 3, 1e155, 0, 0, 1);
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    nlc_assert_quiet(ck_assert_int_ge(scene_solve(&s, NULL), NLC_OK));
+    nlc_assert_rel(s.force[0], stiffness[0] * pow(1e-40, 1.5), 1e-6);
+    nlc_assert_rel(s.force[1], stiffness[1] * pow(1e155, 1.5), 1e-6);
+    scene_free(&s);
+}
+END_TEST
+
 /*
  * A ring of spheres: lambda is 3/2 k x^(1/2) (1+nu)(3-2nu) / (2 pi R E) ([GC] 11), and the bound that comes with the one sweep is
  * exact but for the overlaps' room to grow: 1.005 of its root, and .01 of that of an overlap that is at least 1 in its unit.
@@ -845,6 +864,7 @@ int main(void)
     tcase_add_loop_test(t, soft_and_open, 0, 2);
     tcase_add_test(t, softest_on_a_sphere);
     tcase_add_test(t, nothing_to_start_from);
+    tcase_add_test(t, overlap_beyond_radius);
     tcase_add_loop_test(t, ring_has_its_bound, 0, 6);
     tcase_add_loop_test(t, accepted_starts, 0, 8);
     tcase_add_loop_test(t, accepted_near_the_end, 0, 2);
