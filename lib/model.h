@@ -80,7 +80,8 @@ typedef struct nlc_model {
     /* What tilts add between blocks of which tilted is false and tilt is the tilt times the shape; NLC_SHAPE_MOMENTS. */
     void (*tilt_between)(nlc_block *a, nlc_block *b, const nlc_kernel *kernel);
     /*
-     * The tangent's coefficients of contact c with those before it; sum of their squares over all pairs, times both forces.
+     * The tangent's coefficients of contact c with those before it; sum of their squares over all pairs, times both forces: of equal
+     * directions much, or INFINITY, but nothing overflows.
      * In a model without potential those of Case I, which decide how far to weaken it.
      */
     void (*coefficients)(double *coefficient, const nlc_block *a, int c, const nlc_kernel *kernel);

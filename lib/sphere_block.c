@@ -181,22 +181,30 @@ static void distances(double *restrict t, const nlc_block *restrict a, int c)
     }
 }
 
-void nlc_sphere_coefficients(double *coefficient, const nlc_block *a, int c, const nlc_kernel *kernel)
+/* False: two directions are equal, or nearly. */
+static bool coefficients(double *coefficient, const nlc_block *a, int c, const nlc_kernel *kernel)
 {
     double t[NLC_BLOCK] = {0}, s[NLC_BLOCK], d[NLC_BLOCK];
     distances(t, a, c);
-    nlc_sphere_evaluate(s, d, t, c, &kernel->sphere);
+    const bool distinct = nlc_sphere_evaluate(s, d, t, c, &kernel->sphere);
     for (int k = 0; k < c; k++) coefficient[k] = -(s[k] + (a->shape[c] + a->shape[k]) * d[k]);
     for (int k = 0; k < c && a->tilted; k++)
         coefficient[k] -= (a->shape[c] * a->tilt[c] + a->shape[k] * a->tilt[k]) * nlc_sphere_tilt_at(t[k], &kernel->tilted);
+    return distinct;
 }
 
+void nlc_sphere_coefficients(double *coefficient, const nlc_block *a, int c, const nlc_kernel *kernel)
+{
+    coefficients(coefficient, a, c, kernel);
+}
+
+/* Of equal directions, which on ranks may not have been told of yet, no squares: they would overflow. */
 double nlc_sphere_squares(nlc_block *a, const nlc_kernel *kernel)
 {
     double coefficient[NLC_BLOCK], total = 0;
     for (int c = 1; c < a->count; c++) {
         double sum = 0;
-        nlc_sphere_coefficients(coefficient, a, c, kernel);
+        if (!coefficients(coefficient, a, c, kernel)) return INFINITY;
         for (int k = 0; k < c; k++) sum += coefficient[k] * coefficient[k] * a->force[k];
         total += sum * a->force[c];
     }
