@@ -38,6 +38,7 @@
 #define LINEAR_ENOUGH 0.1 /* of the tolerance: no less is asked of them */
 #define LINEAR_STEPS 6    /* nor more steps */
 #define ROUNDING 1e-13    /* residuals below may be rounding */
+#define SETTLED 1e-15     /* and below this one, relative to the largest force, nothing else */
 
 enum { NONE = -1, EARLY, ROUGH, CLOSER }; /* looks */
 
@@ -134,6 +135,15 @@ static void shorten(nlc_iteration *q)
     for (int d = 0; d < q->directions && longest > LONGEST_STEP; d++) q->step[d] *= LONGEST_STEP / longest;
 }
 
+/*
+ * The step for what is left where residuals of the largest forces are rounding: forces smaller by orders, as at the end of a row of
+ * balls that just touch.  Combinations of directions are made for the large ones; the small ones follow by plain sweeps.
+ */
+static void go_plainly(nlc_iteration *q)
+{
+    for (int d = 0; d < q->directions; d++) q->step[d] = d == 0;
+}
+
 /* Where nlc_weaken may begin. */
 static void keep(nlc_iteration *q, const progress *s)
 {
@@ -152,6 +162,7 @@ static bool advance(nlc_iteration *q, progress *s, nlc_outcome *out)
     if (nlc_is_over(q->n, out)) return false;
     nlc_choose_step(q);
     if (before > 0.05 * q->largest_force) shorten(q);
+    if (before <= SETTLED * q->largest_force) go_plainly(q);
     const bool near = s->settled && before < NEAR * q->largest_force;
     if (near && q->theta > out->info.lambda_lower) out->info.lambda_lower = q->theta;
     const bool critical = q->theta >= 1 || (near && q->theta > 1 - NLC_MARGIN + 0.001);

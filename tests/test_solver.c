@@ -164,6 +164,85 @@ START_TEST(circles_that_overlap)
 END_TEST
 
 /*
+ * Circles of contacts in different blocks of a particle, which has too many contacts for one block and too few for a tree: the last one
+ * lies beside the first.
+ */
+START_TEST(circles_of_many)
+{
+    static const double angle[] = {0.03, 0.3};
+    for (int k = 0; k < 2; k++) {
+        scene s;
+        scene_init(&s);
+        const int32_t m = scene_material(&s, 1e6, 0.4);
+        scene_particle(&s, 1, m);
+        for (int c = 0; c < 82; c++) {
+            scene_particle(&s, 1, m);
+            if (c < 2) scene_contact(&s, 0, c + 1, 1e-3, 0, 0, c ? -1 : 1);
+            else if (c < 81) scene_contact(&s, 0, c + 1, -0.1, cos(0.075 * c), sin(0.075 * c), 0);
+            else scene_contact(&s, 0, c + 1, 1e-3, sin(angle[k]), 0, cos(angle[k]));
+        }
+        ck_assert_int_eq(scene_solve(&s, NULL), k == 0 ? NLC_WARNING_CLOSE : NLC_OK);
+        scene_free(&s);
+    }
+}
+END_TEST
+
+/*
+ * A squeezed ball at the end of a row that just touches, each by no overlap: from nothing it is not expected that the wall at the other
+ * end is reached, and it is, whichever body is called i.
+ */
+START_TEST(reached_along_a_row)
+{
+    enum { BALLS = 5, CONTACTS = BALLS + 5 };
+    scene s;
+    long double solution[CONTACTS];
+    scene_init(&s);
+    s.options.tolerance = 1e-10;
+    const int32_t m = scene_material(&s, 1, 0.45), rigid = scene_material(&s, INFINITY, 0);
+    for (int k = 0; k < BALLS; k++) scene_particle(&s, 1, m);
+    scene_wall(&s, rigid);
+    for (int side = 0; side < 4; side++)
+        scene_contact(&s, 0, BALLS, 0.1, 0, (side < 2) * (1 - 2 * (side & 1)), (side >= 2) * (1 - 2 * (side & 1)));
+    for (int k = 1; k < BALLS; k++) scene_contact(&s, _i ? k : k - 1, _i ? k - 1 : k, 0, _i ? -1 : 1, 0, 0);
+    scene_contact(&s, _i ? BALLS : BALLS - 1, _i ? BALLS - 1 : BALLS, 0, _i ? -1 : 1, 0, 0);
+    scene_contact(&s, 0, BALLS, 0, -1, 0, 0);
+    ck_assert_int_eq(scene_solve(&s, NULL) & ~NLC_WARNING_CLOSE, NLC_OK);
+    ck_assert(scene_oracle(&s, 1, solution) < 1e-15L);
+    ck_assert(s.force[CONTACTS - 2] > 0);
+    ck_assert(scene_error(&s, s.force, solution) <= 1e-10);
+    scene_free(&s);
+}
+END_TEST
+
+/*
+ * One contact among many that only just touch, and a tolerance so wide that Hertz' law might do for it: the bound of lambda, which
+ * counts all of them as if they were like the one, has the last word.
+ */
+START_TEST(loose_among_many)
+{
+    int solved = 0;
+    for (double overlap = 1e-5; overlap < 0.3; overlap *= 1.2) {
+        scene s;
+        nlc_info info = {.struct_size = sizeof info};
+        long double solution[30];
+        scene_init(&s);
+        s.options.tolerance = 0.4;
+        const int32_t m = scene_material(&s, 1, 0.3), wall = 1 + scene_wall(&s, scene_material(&s, INFINITY, 0));
+        scene_particle(&s, 1, m);
+        for (int k = 0; k < 30; k++) {
+            const double z = 1 - (2 * k + 1.) / 30, r = sqrt(1 - z * z), turn = 2.399963229728653 * k;
+            scene_contact(&s, 0, wall, k ? 1e-6 * overlap : overlap, r * cos(turn), r * sin(turn), z);
+        }
+        ck_assert_int_eq(scene_solve(&s, &info) & ~NLC_WARNING_CLOSE, NLC_OK);
+        solved += info.sweeps > 0;
+        ck_assert(scene_oracle(&s, 1, solution) < 1e-15L && scene_error(&s, s.force, solution) <= 0.4);
+        scene_free(&s);
+    }
+    ck_assert_int_gt(solved, 0);
+}
+END_TEST
+
+/*
  * Two contacts in nearly one place among a thousand that hardly touch, too many to settle them one by one: the larger overlap stays, the
  * other one is pushed open, whichever body the ball with all of them is called.
  */
@@ -863,6 +942,9 @@ int main(void)
     tcase_add_test(t, idle_candidates_in_one_place);
     tcase_add_loop_test(t, soft_and_open, 0, 2);
     tcase_add_test(t, softest_on_a_sphere);
+    tcase_add_test(t, circles_of_many);
+    tcase_add_loop_test(t, reached_along_a_row, 0, 2);
+    tcase_add_test(t, loose_among_many);
     tcase_add_test(t, nothing_to_start_from);
     tcase_add_test(t, overlap_beyond_radius);
     tcase_add_loop_test(t, ring_has_its_bound, 0, 6);
