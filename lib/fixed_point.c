@@ -51,9 +51,9 @@ static void update_forces(nlc_network *n, const double *overlap, double cap, sta
     s->worst = -1;
     for (int64_t c = 0; c < n->contact_count; c++) {
         double x = bounded(overlap[c], n->side[2 * c] + n->side[2 * c + 1], cap);
-        double p = nlc_law(n->stiffness[c], x), change = fabs(p - n->force[c]);
+        double p = nlc_law(n->stiffness[c], x), old = n->force[c], change = fabs(p - old), larger = p > old ? p : old;
         double a = n->largest[n->i[c]], b = n->largest[n->j[c]], scale = a > b ? a : b;
-        scale = p > scale ? p : scale;
+        scale = larger > scale ? larger : scale; /* the old one is there already, unless another rank knows nothing of it */
         n->force[c] = p;
         s->highest = x > s->highest ? x : s->highest;
         if (change > s->change * scale) { /* no scale is 0 where something changes */
