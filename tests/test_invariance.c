@@ -535,11 +535,32 @@ START_TEST(hertz_where_that_is_good_enough)
 }
 END_TEST
 
+/* Radii whose sum is beyond double: the same bits as in a unit of length of 2^1020, at moduli that keep the forces in range. */
+START_TEST(largest_radii)
+{
+    double force[2][4];
+    for (int large = 0; large < 2; large++) {
+        scene s;
+        scene_init(&s);
+        s.options.model = NLC_MODEL_SPHERE;
+        const double unit = large ? 0x1p1020 : 1;
+        const int32_t m = scene_material(&s, large ? 0x1p-1020 : 1, 0.3);
+        for (int k = 0; k < 5; k++) scene_particle(&s, unit * (k == 0 ? 8 : k == 4 ? 0.5 : 15), m);
+        for (int k = 0; k < 4; k++) scene_contact(&s, 0, k + 1, unit * 0x1p-40, k == 0, k == 1, (k == 2) - (k == 3));
+        nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, NULL), NLC_OK));
+        for (int k = 0; k < 4; k++) force[large][k] = s.force[k] / unit;
+        scene_free(&s);
+    }
+    for (int k = 0; k < 4; k++) nlc_assert_same(force[1][k], force[0][k]);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("invariance");
     TCase *t = tcase_create("invariance");
     tcase_add_checked_fixture(t, fp_trap, fp_untrap);
+    tcase_add_test(t, largest_radii);
     tcase_add_loop_test(t, exchange_of_sides_changes_no_bit, 0, 4);
     tcase_add_test(t, exchange_of_sides_changes_no_bit_when_weakened);
     tcase_add_test(t, absurd_numbers_are_survived);

@@ -133,6 +133,39 @@ START_TEST(sides_and_units)
 }
 END_TEST
 
+/*
+ * Circles are no larger than the smaller sphere: with forces beyond that, what turns is proportional to the products of two.  Also where
+ * the approach would be beyond double, of forces of 1e200 and a stiffness of the caller's.
+ */
+START_TEST(largest_circles)
+{
+    const heap h = make(40, NLC_MODEL_SPHERE);
+    scene s;
+    double F[SPHERES][3] = {{0}}, other[SPHERES][3] = {{0}}, *stiffness;
+    place(&s, &h);
+    stiffness = malloc((size_t)s.contacts * sizeof *stiffness);
+    for (int64_t c = 0; c < s.contacts; c++) {
+        stiffness[c] = 1e-300;
+        s.force[c] *= _i ? 1e200 : 1e9;
+    }
+    if (_i) {
+        for (int64_t m = 0; m < s.materials; m++) s.rows[m].young *= 1e250;
+        s.options.stiffness = stiffness;
+    }
+    double *force = malloc((size_t)s.contacts * sizeof *force);
+    memcpy(force, s.force, (size_t)s.contacts * sizeof *force);
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    nlc_assert_quiet(ck_assert_int_eq(nlc_assemble_turning(s.network, F[0], 0, force, s.overlap, s.normal, NULL), NLC_OK));
+    for (int64_t c = 0; c < s.contacts; c++) force[c] *= 4;
+    nlc_assert_quiet(ck_assert_int_eq(nlc_assemble_turning(s.network, other[0], 0, force, s.overlap, s.normal, NULL), NLC_OK));
+    for (int k = 0; k < SPHERES; k++)
+        for (int d = 0; d < 3; d++) nlc_assert_same(other[k][d], 16 * F[k][d]);
+    ck_assert(fabs(F[1][2]) > 0);
+    free(force), free(stiffness);
+    scene_free(&s);
+}
+END_TEST
+
 /* Each wrong argument has its error, and nothing is added. */
 START_TEST(what_is_refused)
 {
@@ -196,6 +229,7 @@ int main(void)
     tcase_add_checked_fixture(t, fp_trap, fp_untrap);
     tcase_add_loop_test(t, derivative_of_the_energy, 0, 12);
     tcase_add_loop_test(t, sides_and_units, 0, 4);
+    tcase_add_loop_test(t, largest_circles, 0, 2);
     tcase_add_test(t, what_is_refused);
     time_limit(t, 60);
     suite_add_tcase(suite, t);
