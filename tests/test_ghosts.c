@@ -5,6 +5,7 @@
  * Ranks are threads, and their callbacks demand that all are in the same call (ranks.h); time limits catch what would wait for ever.
  * Floating-point traps are on, on all threads.
  */
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
