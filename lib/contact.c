@@ -114,9 +114,9 @@ static double own_slope(const nlc_network *n, int64_t e, int64_t particle, doubl
         self = n->settings.model->self(nlc_kernel_of(n, particle), t2 < 1 ? t2 : 1, tilt);
     }
     const double growth = growth_of(n, c), own = growth * self.slope + (1 - growth) * self.displacement;
-    /* moments are of any size between equal directions, which are told of later: capped, so that there is a quotient */
-    const double others = growth * (moment * (2. / 3) + wide * (4. / 3)), most = STEEPEST * p;
-    const double slope = nlc_scale_of(n, particle) * own + (others > most ? most : others < -most ? -most : others) / p;
+    /* moments are of any size between equal directions, which are told of later: there is to be a quotient all the same */
+    const double others = growth * (moment * (2. / 3) + wide * (4. / 3)), enough = fabs(others) * (1 / STEEPEST);
+    const double slope = nlc_scale_of(n, particle) * own + others / (p > enough ? p : enough);
     return slope > STEEPEST ? -STEEPEST : slope < -STEEPEST ? STEEPEST : -slope;
 }
 
