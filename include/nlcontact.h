@@ -708,7 +708,8 @@ NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *opti
  * they are given room by options.cache: NLC_MODEL_SPHERE and NLC_MODEL_POINT_FORCE two numbers for each two contacts of a
  * particle, about 170 bytes a contact in a dense packing, for solves in two thirds of the time; NLC_MODEL_GONZALEZ_CUITINO and
  * NLC_MODEL_HALF_SPACE at undeformed points one number, but not in portable C, for solves in some four fifths of the time as long as
- * it all stays in the processor's caches; beyond them, and in solves of one sweep, computing is quicker.  The results are the same, bit for bit.  With less room as much is kept as it holds.
+ * it all stays in the processor's caches; beyond them, and in solves of one sweep, computing is quicker.  The results are the same,
+ * bit for bit.  With less room as much is kept as it holds.
  *
  * network   from nlc_network_init
  * Ask when the network has been made, and hand the memory over by nlc_set_options.  It must not be used by another network, or by
@@ -922,7 +923,8 @@ NLC_API nlc_status nlc_tangent_bound(nlc_network *network, double *NLC_RESTRICT 
  * normal     [contacts][3] as for nlc_solve
  * info       or NULL
  * A particle's contact with itself (i = j) adds nothing.  Exchanging i and j of a contact with its normal reversed changes
- * no bit.  On ranks ghosts get what the contacts here add: their owners have all of it.  NLC_ERROR_RANGE: the sum of all magnitudes might exceed the range of double.
+ * no bit.  On ranks ghosts get what the contacts here add: their owners have all of it.  NLC_ERROR_RANGE: the sum of all magnitudes
+ * might exceed the range of double.
  * Returns NLC_OK; NLC_ERROR_NULL, _STRUCT_SIZE, _NETWORK, _STRIDE, _FORCE, _NORMAL, _TOTAL_FORCE, _RANGE.
  */
 NLC_API nlc_status nlc_assemble(const nlc_network *network, double *NLC_RESTRICT F, ptrdiff_t F_stride,

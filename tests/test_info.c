@@ -29,6 +29,15 @@ static void make_row(scene *s, int worst)
         }
 }
 
+/* It, and its network; returns the load at which its stable branch ends. */
+static double build_row(scene *s, int worst)
+{
+    make_row(s, worst);
+    const double end = (double)exact_end(s, 200, 1e-6L);
+    ck_assert_int_eq(scene_build(s), NLC_OK);
+    return end;
+}
+
 static nlc_status solve(scene *s, double load, double tolerance, int64_t most, nlc_info *info)
 {
     double overlap[6 * ROW];
@@ -53,9 +62,7 @@ START_TEST(closest_to_the_end)
     static const double load[] = {0.1, 0.5, 0.9, 0.98, 0.99, 0.995};
     scene s;
     nlc_info info;
-    make_row(&s, _i);
-    const double end = (double)exact_end(&s, 200, 1e-6L);
-    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    const double end = build_row(&s, _i);
     for (int warm = 0; warm < 2; warm++)
         for (int l = 0; l < 6; l++) {
             double stiffness[ROW], reach[ROW], displacement[ROW];
@@ -80,9 +87,7 @@ START_TEST(weakened_most)
     static const double load[] = {1.001, 1.01, 1.1, 2, 10};
     scene s;
     nlc_info info;
-    make_row(&s, _i);
-    const double end = (double)exact_end(&s, 200, 1e-6L);
-    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    const double end = build_row(&s, _i);
     for (int warm = 0; warm < 2; warm++)
         for (int l = 0; l < 5; l++) {
             memset(s.nonlocal, 0, (size_t)s.contacts * sizeof *s.nonlocal);
