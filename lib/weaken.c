@@ -20,9 +20,14 @@
 #define GROWTH 4.0     /* of the residual: then back to the best, with shorter steps */
 #define STEPS 240
 #define PATIENCE 40 /* steps without the residual falling tenfold after which it begins again from Hertz */
-#define STALLED 3     /* steps in which the residual has not halved, after which so many plain ones follow, while ... */
-#define CURVED 1e-6   /* ... it is more than this part of the overlaps; */
-#define MIXED 1e-4    /* or this one, where coefficients depend on the forces, so that slopes are others than those of the steps */
+/*
+ * Steps in which the residual has not halved, after which so many plain ones follow, while it is more than this part of the overlaps;
+ * and where coefficients depend on the forces, so that slopes are others than those of the steps.
+ */
+#define STALLED 3
+#define CURVED 1e-6
+#define STALLED_MIXED 5
+#define CURVED_MIXED 1e-4
 #define LONG_STEP 4.0 /* a plain step after one that has changed the residual by little */
 
 static bool sweep(nlc_iteration *q, nlc_outcome *out)
@@ -141,11 +146,16 @@ typedef struct pace {
     int waited;        /* steps since the residual fell tenfold */
     int steps, plain;  /* so far; those to come that are plain */
     double mark, then, last; /* the residual when it fell tenfold, some steps ago, and in the step before */
+    int idle;      /* STALLED */
+    double least;  /* CURVED, as a sum of squares */
 } pace;
 
-static pace new_pace(void)
+static pace new_pace(const nlc_network *n, double applied)
 {
-    return (pace){.mark = INFINITY, .then = INFINITY, .last = INFINITY};
+    const bool linear = nlc_is_linear(n->settings.model->shape);
+    const double curved = linear ? CURVED : CURVED_MIXED;
+    return (pace){.mark = INFINITY, .then = INFINITY, .last = INFINITY, .idle = linear ? STALLED : STALLED_MIXED,
+                  .least = curved * curved * applied};
 }
 
 /*
@@ -153,12 +163,12 @@ static pace new_pace(void)
  * residual has a minimum that is none, and combinations of steps stay there.  Plain steps get away, slowly, all along the same
  * direction: there they may be long, until the others come up.
  */
-static double plain_step(pace *p, double norm, double least)
+static double plain_step(pace *p, double norm)
 {
     const bool steady = norm > 0.6 * p->last && norm < 1.6 * p->last;
     p->last = norm;
-    if (++p->steps % STALLED == 0) {
-        if (norm > 0.25 * p->then && norm > least) p->plain = STALLED;
+    if (++p->steps % p->idle == 0) {
+        if (norm > 0.25 * p->then && norm > p->least) p->plain = p->idle;
         p->then = norm;
     }
     if (p->plain == 0) return 0;
@@ -171,13 +181,12 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
     nlc_network *n = q->n;
     const int64_t count = n->contact_count;
     double *x = n->spare[0], *y = n->spare[1], *best = n->spare[2], *kept = n->spare[3];
-    pace p = new_pace();
     bool cold, beyond = false, stepped = false; /* stepped: kept is Anderson's from then on */
     const bool twice = n->settings.model->self && nlc_on_any_rank(n, n->most_contacts > NLC_BLOCK);
     nlc_anderson h;
     start_from_overlaps(q, x);
     const double applied = applied_overlaps(q, x, best, &cold); /* best is the start given */
-    const double curved = nlc_is_linear(n->settings.model->shape) ? CURVED : MIXED, least = curved * curved * applied;
+    pace p = new_pace(n, applied);
     int start = !cold && !(q->kept && q->nearer) ? GIVEN : q->kept ? KEPT : HERTZ;
     nlc_anderson_start(&h, n, 1, kept, n->spare[4], NLC_FARTHEST); /* what is kept is looked at before the first step only */
     nlc_anderson_reset(&h, FIRST_STEP);
@@ -202,7 +211,7 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
             if (start == KEPT) memcpy(x, kept, (size_t)count * sizeof *x);
             else start_from_overlaps(q, x);
             nlc_anderson_reset(&h, FIRST_STEP);
-            p = new_pace();
+            p = new_pace(n, applied);
             continue;
         }
         if (!beyond && out->info.lambda_upper > 1 - NLC_MARGIN) { /* small residuals below the end lead nowhere: it begins here */
@@ -218,7 +227,7 @@ void nlc_weaken(nlc_iteration *q, nlc_outcome *out)
             h.smallest = norm;
             memcpy(best, x, (size_t)count * sizeof *best);
         }
-        const double length = plain_step(&p, norm, least);
+        const double length = plain_step(&p, norm);
         if (length > 0) nlc_anderson_reset(&h, length);
         stepped = true;
         nlc_anderson_combine(&h, x, y);
