@@ -39,6 +39,7 @@
 #define LINEAR_STEPS 6    /* nor more steps */
 #define ROUNDING 1e-13    /* residuals below may be rounding */
 #define SETTLED 1e-15     /* and below this one, relative to the largest force, nothing else */
+#define PLAIN_STEPS 16    /* in a solve, at most */
 
 enum { NONE = -1, EARLY, ROUGH, CLOSER }; /* looks */
 
@@ -46,6 +47,10 @@ typedef struct progress {
     double ratio, best; /* residual relative to the force nearby, and the smallest so far */
     int64_t where;
     int stalled;        /* sweeps since it last fell, when it is near rounding */
+    int slow;           /* times in a row that it has not halved since the best */
+    double last;        /* the one before */
+    bool plain;         /* the last step was one of go_plainly ... */
+    int plain_steps;    /* ... of which there may be so many more */
     int critical;       /* sweeps in a row with a Ritz value near 1 */
     int looks;          /* those there have been */
     bool warm;          /* a start was given */
@@ -98,7 +103,10 @@ static nlc_verdict judge(nlc_iteration *q, progress *s, nlc_outcome *out)
         s->ratio = energy > s->ratio ? energy : s->ratio;
     }
     if (nlc_is_over(q->n, out)) return NLC_DONE;
-    s->stalled = s->ratio < 0.5 * s->best ? 0 : s->stalled + (s->ratio < ROUNDING);
+    if (s->plain && s->ratio > s->last) s->plain_steps = 0;
+    s->last = s->ratio;
+    s->slow = s->ratio < 0.5 * s->best ? 0 : s->slow + 1;
+    s->stalled = s->slow == 0 ? 0 : s->stalled + (s->ratio < ROUNDING);
     s->best = s->ratio < s->best ? s->ratio : s->best;
     if (NLC_SAFETY * s->ratio <= tolerance) {
         const nlc_verdict v = nlc_certify(q, 1 - NLC_SAFETY * s->ratio / tolerance, out);
@@ -136,11 +144,16 @@ static void shorten(nlc_iteration *q)
 }
 
 /*
- * The step for what is left where residuals of the largest forces are rounding: forces smaller by orders, as at the end of a row of
- * balls that just touch.  Combinations of directions are made for the large ones; the small ones follow by plain sweeps.
+ * A step of Algorithm 1, for forces smaller by orders than others, as at the end of a row of balls that just touch.  Where residuals of
+ * the largest forces are rounding, combinations of directions follow these, and may get nowhere with the small ones, which a plain
+ * sweep settles.  Not where it does not: forces of soft particles beside hard ones may repel each other, or be near the end.
  */
-static void go_plainly(nlc_iteration *q)
+static void go_plainly(nlc_iteration *q, progress *s)
 {
+    const bool stuck = s->slow > 1 && s->ratio > ROUNDING;
+    s->plain = stuck && q->largest_residual <= SETTLED * q->largest_force && s->plain_steps > 0;
+    if (!s->plain) return;
+    s->plain_steps--;
     for (int d = 0; d < q->directions; d++) q->step[d] = d == 0;
 }
 
@@ -162,7 +175,7 @@ static bool advance(nlc_iteration *q, progress *s, nlc_outcome *out)
     if (nlc_is_over(q->n, out)) return false;
     nlc_choose_step(q);
     if (before > 0.05 * q->largest_force) shorten(q);
-    if (before <= SETTLED * q->largest_force) go_plainly(q);
+    go_plainly(q, s);
     const bool near = s->settled && before < NEAR * q->largest_force;
     if (near && q->theta > out->info.lambda_lower) out->info.lambda_lower = q->theta;
     const bool critical = q->theta >= 1 || (near && q->theta > 1 - NLC_MARGIN + 0.001);
@@ -238,7 +251,8 @@ static nlc_verdict iterate(nlc_iteration *q, progress *s, nlc_outcome *out)
 static void solve(nlc_network *n, const double *overlap, const double *normal, double part, bool warm, nlc_outcome *out)
 {
     nlc_iteration q;
-    progress s = {.ratio = 1e10, .best = INFINITY, .where = -1, .warm = warm, .begun = out->info.sweeps, .first = true};
+    progress s = {.ratio = 1e10, .best = INFINITY, .where = -1, .warm = warm, .begun = out->info.sweeps, .first = true,
+                  .plain_steps = PLAIN_STEPS};
     if (!n->swept) n->known_bound = 1; /* it was for another start */
     nlc_iteration_start(&q, n, overlap, normal, part);
     const nlc_verdict v = iterate(&q, &s, out);
