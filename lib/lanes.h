@@ -26,11 +26,13 @@
  * the type vec: LANES doubles; and
  *     set, load, store, loadu, storeu, add, sub, mul, div, root, min, max; muladd: ab + c; nmuladd: c - ab, both rounded once
  *     estimate: 1/sqrt(t) for 2^-101 < t < 2^15
+ *     store_pairs: p[0] = a[0], p[1] = b[0], p[2] = a[1] and so on
+ *     add_pairs: p[0] + p[1], p[2] + p[3] and so on
  *     set_directions: x, y, z [LANES] from the rows v [LANES], those reversed that have a bit in reversed
  * The memory of load and store is aligned to whole vectors, that of loadu and storeu to doubles.
  */
 #include "crowd.h"
-#include "iteration.h"
+#include "warm.h"
 
 #define NEAR 0x1p-46  /* squared distance that is left to the portable code */
 #define TINY 0x1p-100 /* keeps t from 0; too small to change a t from NEAR on */
@@ -220,5 +222,6 @@ static int64_t kept_in(const nlc_network *n, int64_t first, int64_t end)
 #include "lanes_blocks.h"
 #include "lanes_bound.h"
 #include "lanes_residuals.h"
+#include "lanes_warm.h"
 
-const nlc_variant VARIANT = {displace_window, kept_in, mark_above, residuals, between};
+const nlc_variant VARIANT = {displace_window, kept_in, mark_above, residuals, start, look, between};

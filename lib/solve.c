@@ -153,12 +153,11 @@ static void result_task(void *work, int64_t s)
 {
     const results *r = work;
     const nlc_network *n = r->n;
+    const int64_t from = s * NLC_SLAB, end = nlc_end_of(s, NLC_SLAB, n->contact_count);
     int64_t active = 0;
-    for (int64_t c = s * NLC_SLAB; c < nlc_end_of(s, NLC_SLAB, n->contact_count); c++) {
-        r->nonlocal[c] = nlc_answer(n, c);
-        r->force[c] = nlc_law(n->stiffness[c], r->overlap[c] + r->nonlocal[c]);
-        active += r->force[c] > 0;
-    }
+    nlc_answers(n, from, end, r->nonlocal);
+    for (int64_t c = from; c < end; c++) r->force[c] = nlc_law(n->stiffness[c], r->overlap[c] + r->nonlocal[c]);
+    for (int64_t c = from; c < end; c++) active += r->force[c] > 0;
     n->piece[s].count = active;
 }
 

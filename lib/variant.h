@@ -24,6 +24,8 @@
 
 typedef struct nlc_iteration nlc_iteration;
 typedef struct nlc_extremes nlc_extremes;
+typedef struct nlc_guess nlc_guess;
+typedef struct nlc_view nlc_view;
 
 typedef struct nlc_variant {
     /*
@@ -43,6 +45,11 @@ typedef struct nlc_variant {
     void (*mark_above)(nlc_network *network, const double *root, const double *normal, double limit, int64_t first, int64_t end);
     /* directions.c: of count contacts from one on: residuals, 1/D and forces of the law; returns how many of them are done. */
     int (*residuals)(const nlc_iteration *q, int64_t from, int count, double *z, double *inverse, double *force, nlc_extremes *e);
+    /* warm.c: forces of count contacts from one on and their weights, the overlaps with displacements in y; returns how many are done. */
+    int (*start)(const nlc_iteration *q, const nlc_guess *guess, int64_t from, int count, const double *U, double *y);
+    /* look.c: of count contacts from one on, after a sweep; grown and lost of the view; returns how many of them are done. */
+    int (*look)(const nlc_iteration *q, const nlc_guess *guess, int64_t from, int count, double *size, double *alone, double *energy,
+                double *slope, nlc_view *view);
     /* nlc_case_one_between */
     bool (*between)(nlc_block *a, nlc_block *b, const nlc_kernel *kernel);
 } nlc_variant;

@@ -33,24 +33,39 @@ typedef struct job {
     const nlc_guess *from;
 } job;
 
+/* Forces and weights of a few contacts, but for those that the inner loops of the processor have done. */
+static void set_forces(const job *w, int64_t from, int count, double *y)
+{
+    const nlc_iteration *q = w->q;
+    const nlc_network *n = q->n;
+    const nlc_variant *v = n->settings.variant;
+    const double unit = n->unit;
+    double U[NLC_CHUNK];
+    for (int d = 0; d < count; d++) U[d] = unit * nlc_yield_of(n, n->i[from + d]) + unit * nlc_yield_of(n, n->j[from + d]);
+    for (int d = v ? v->start(q, w->from, from, count, U, y) : 0; d < count; d++) {
+        const int64_t c = from + d;
+        y[d] = nlc_guessed_overlap(q, w->from, c);
+        const double x = 0.5 * (y[d] + fabs(y[d])), k = nlc_scaled_stiffness(q, c), root = sqrt(x);
+        n->force[c] = n->share[2 * c] = k * root * x; /* nlc_law */
+        n->share[2 * c + 1] = 1.5 * k * U[d] * nlc_weighed_root(root);
+    }
+}
+
 static void start_task(void *work, int64_t s)
 {
     const job *w = work;
-    const nlc_iteration *q = w->q;
-    const nlc_network *n = q->n;
-    int64_t active = 0;
-    double top = 0;
-    for (int64_t c = s * NLC_SLAB; c < nlc_end_of(s, NLC_SLAB, n->contact_count); c++) {
-        const double y = nlc_guessed_overlap(q, w->from, c), x = 0.5 * (y + fabs(y)), k = nlc_scaled_stiffness(q, c);
-        const double U = n->unit * nlc_yield_of(n, n->i[c]) + n->unit * nlc_yield_of(n, n->j[c]), root = sqrt(x);
-        const double force = k * root * x; /* nlc_law */
-        n->force[c] = n->share[2 * c] = force;
-        n->share[2 * c + 1] = 1.5 * k * U * nlc_weighed_root(root);
-        top = force > top ? force : top;
-        active += y > 0;
+    const nlc_network *n = w->q->n;
+    const int64_t end = nlc_end_of(s, NLC_SLAB, n->contact_count);
+    nlc_piece found = {0};
+    for (int64_t from = s * NLC_SLAB; from < end; from += NLC_CHUNK) {
+        const int count = end - from < NLC_CHUNK ? (int)(end - from) : NLC_CHUNK;
+        double y[NLC_CHUNK];
+        set_forces(w, from, count, y);
+        for (int d = 0; d < count; d++) found.count += y[d] > 0;
+        const double top = nlc_largest_magnitude(n->force + from, count);
+        found.force = top > found.force ? top : found.force;
     }
-    n->piece[s].count = active;
-    n->piece[s].force = top;
+    n->piece[s] = found;
 }
 
 /* Forces into n->force, and beside their weights into n->share; returns how many there are, *top the largest. */

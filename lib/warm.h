@@ -6,25 +6,27 @@
 #include "iteration.h"
 
 /* Displacements to start from, which are the caller's, in the caller's units, or those of the last sweep, in n->current. */
-typedef struct nlc_guess {
+struct nlc_guess {
     const double *nonlocal;
     double unit;
-} nlc_guess;
+};
 
 static inline double nlc_guessed_overlap(const nlc_iteration *q, const nlc_guess *from, int64_t c)
 {
     return q->overlap[c] * q->load + from->nonlocal[c] * from->unit;
 }
 
+#define NLC_CHUNK 64 /* contacts that are looked at together */
+
 /* A look at the residuals. */
-typedef struct nlc_view {
+struct nlc_view {
     double ratio; /* largest |z| over the largest force nearby, or what the energy says (scales.c) */
     int64_t where;
     int64_t moving; /* contacts whose forces still change */
     bool grown;     /* an overlap is larger than its weight knows of */
     bool lost;      /* displacements beyond anything */
     double circle;  /* nlc_larger_circle of all, in the units at hand */
-} nlc_view;
+};
 
 /* look.c: of the contacts of this rank, after a sweep of the forces of a start. */
 nlc_view nlc_look(nlc_iteration *q, const nlc_guess *from);

@@ -4,11 +4,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#if defined(__x86_64__) && defined(__GNUC__)
+#include <cpuid.h>
+#endif
 
 #include "../lib/block.h"
 #include "../lib/bound.h"
 #include "../lib/iteration.h"
 #include "../lib/network.h"
+#include "../lib/warm.h"
 #include "scene.h"
 
 /* As the loop tests number them; what the processor lacks is some other one of them, and passes as that. */
@@ -458,13 +462,133 @@ START_TEST(residuals)
 }
 END_TEST
 
+/*
+ * The same of a start that may be the solution: forces [GC] 3 and slopes to rounding, by how much overlaps may grow exactly.  A
+ * displacement that is too large, or an overlap that has grown, is seen wherever in a vector it is.
+ */
+START_TEST(starts)
+{
+    enum { COUNT = 21 };
+    rng g = {40};
+    scene s;
+    stars(&s, &g, 1, COUNT, COUNT);
+    s.options.simd = _i;
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    nlc_network *n = s.network;
+    const nlc_variant *v = n->settings.variant;
+    const nlc_iteration q = {.n = n, .overlap = s.overlap, .normal = s.normal, .per_stiffness = 1, .load = 0.5};
+    double nonlocal[COUNT], U[COUNT], y[COUNT], size[COUNT], alone[COUNT], energy[COUNT], slope[COUNT];
+    const nlc_guess guess = {nonlocal, 0.25};
+    for (int round = 0; round < 3 * COUNT && v; round++) {
+        nlc_view view = {0};
+        int count = 0;
+        for (int c = 0; c < COUNT; c++) {
+            n->stiffness[c] = rng_uniform(&g, 1, 2);
+            s.overlap[c] = rng_below(&g, 4) == 0 ? -1 : rng_uniform(&g, 0.5, 1);
+            nonlocal[c] = rng_uniform(&g, -0.1, 0.1);
+            U[c] = rng_uniform(&g, 0, 1);
+            const double grown = 0.0025 * s.overlap[c] + 1e-4 + 0.25 * nonlocal[c]; /* half of what it may */
+            n->side[2 * c] = rng_uniform(&g, 0, 1);
+            n->side[2 * c + 1] = -n->side[2 * c] + (c != round % COUNT || round < COUNT || s.overlap[c] < 0 ? fmin(grown, 0.25 * nonlocal[c]) : 0.1);
+            if (round >= 2 * COUNT && c == round % COUNT) n->side[2 * c] -= NLC_FARTHEST;
+        }
+        const int at = round % COUNT;
+        nlc_assert_quiet(count = v->start(&q, &guess, 0, COUNT, U, y));
+        ck_assert(count > COUNT - 8 && count <= COUNT);
+        for (int c = 0; c < count; c++) {
+            const long double x = 0.5L * s.overlap[c] + 0.25L * nonlocal[c], root = x > 0 ? sqrtl(x) : 0, k = n->stiffness[c];
+            nlc_assert_abs(y[c], (double)x, 2e-16);
+            nlc_assert_abs(n->force[c], (double)(k * root * root * root), 1e-15 * (double)(k * root));
+            nlc_assert_same(n->share[2 * c], n->force[c]);
+            nlc_assert_abs(n->share[2 * c + 1], (double)(1.5L * k * U[c] * (1.005L * root + 0.01L)), 1e-14 * (double)k);
+        }
+        nlc_assert_quiet(count = v->look(&q, &guess, 0, COUNT, size, alone, energy, slope, &view));
+        ck_assert(count > COUNT - 8 && count <= COUNT);
+        for (int c = 0; c < count; c++) {
+            const long double moved = (long double)(n->side[2 * c] + n->side[2 * c + 1]), x = 0.5L * s.overlap[c];
+            const long double root = x + moved > 0 ? sqrtl(x + moved) : 0, k = n->stiffness[c], z = fabsl(k * root * root * root - n->force[c]);
+            nlc_assert_abs(size[c], (double)z, 1e-15 * (double)(k * (1 + root)));
+            nlc_assert_abs(alone[c], (double)(moved > 0 ? x + moved : x), 2e-16);
+            nlc_assert_abs(energy[c], (double)(z * fabsl(moved - 0.25L * nonlocal[c])), 1e-15 * (double)(k * (1 + root) * (1 + fabsl(moved))));
+            nlc_assert_abs(slope[c], (double)(1.5L * k * root), 1e-15 * (double)k);
+        }
+        ck_assert_int_eq(view.grown, at < count && round >= COUNT && round < 2 * COUNT && s.overlap[at] > 0);
+        ck_assert_int_eq(view.lost, at < count && round >= 2 * COUNT);
+    }
+    scene_free(&s);
+}
+END_TEST
+
+/*
+ * What a look adds up of each particle, beside sums in long double: contacts in runs of one particle and in any order, of a particle with
+ * itself, of walls.  Terms are positive, so that the sums are as good as their terms, and these as what has been rounded in them.
+ */
+START_TEST(sums_of_looks)
+{
+    enum { BALLS = 9, COUNT = 150 };
+    rng g = {41};
+    scene s;
+    scene_init(&s);
+    s.options.simd = _i;
+    const int32_t m = scene_material(&s, 1e9, 0.3);
+    for (int k = 0; k < BALLS; k++) scene_particle(&s, 1, m);
+    const int32_t wall = BALLS + scene_wall(&s, m);
+    for (int c = 0, i = 0; c < COUNT; c++) {
+        if (rng_below(&g, 3) == 0) i = (int)rng_below(&g, BALLS);
+        const int32_t other = rng_below(&g, 6) == 0 ? wall : rng_below(&g, 3) == 0 ? i : (int32_t)rng_below(&g, BALLS);
+        double v[3];
+        rng_unit(&g, v);
+        scene_contact(&s, i, other, rng_uniform(&g, 0.5, 1), v[0], v[1], v[2]);
+    }
+    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    nlc_network *n = s.network;
+    nlc_iteration q = {.n = n, .overlap = s.overlap, .normal = s.normal, .per_stiffness = 1, .load = 1};
+    double nonlocal[COUNT];
+    long double energy[BALLS] = {0}, slope[BALLS] = {0};
+    for (int c = 0; c < COUNT; c++) {
+        n->stiffness[c] = rng_uniform(&g, 1, 2);
+        n->force[c] = nonlocal[c] = 0;
+        n->side[2 * c] = n->side[2 * c + 1] = rng_uniform(&g, 0, 0.5);
+        const long double moved = 2 * (long double)n->side[2 * c], root = sqrtl(s.overlap[c] + moved);
+        const int32_t end[2] = {s.i[c], s.j[c]};
+        for (int side = 0; side < 2; side++) {
+            if (end[side] == wall) continue;
+            energy[end[side]] += n->stiffness[c] * root * root * root * moved;
+            slope[end[side]] = fmaxl(slope[end[side]], 1.5L * n->stiffness[c] * root);
+        }
+    }
+    for (int k = 0; k < BALLS + 1; k++) n->largest[k] = 1;
+    nlc_assert_quiet(nlc_look(&q, &(nlc_guess){nonlocal, 1}));
+    for (int k = 0; k < BALLS; k++) {
+        nlc_assert_rel(n->bound[k], (double)energy[k], 1e-14);
+        nlc_assert_rel(n->growth[k], (double)slope[k], 1e-15);
+    }
+    scene_free(&s);
+}
+END_TEST
+
+#if defined(__x86_64__) && defined(__GNUC__)
+/* From its own words and the operating system's: XCR0 says which registers are kept when threads change. */
+static void ask_processor(bool *avx2, bool *avx512)
+{
+    unsigned int a, b, c, d, kept, high;
+    *avx2 = *avx512 = false;
+    if (!__get_cpuid(1, &a, &b, &c, &d) || !(c & bit_OSXSAVE) || !(c & bit_FMA)) return;
+    __asm__ volatile("xgetbv" : "=a"(kept), "=d"(high) : "c"(0));
+    if (!__get_cpuid_count(7, 0, &a, &b, &c, &d)) return;
+    *avx2 = (kept & 0x06) == 0x06 && (b & bit_AVX2);
+    *avx512 = *avx2 && (kept & 0xe6) == 0xe6 && (b & bit_AVX512F);
+}
+#endif
+
 START_TEST(choice)
 {
     ck_assert_ptr_null(nlc_choose_variant(NLC_SIMD_GENERIC));
     const nlc_variant *best = nlc_choose_variant(NLC_SIMD_BEST);
     ck_assert(best == nlc_choose_variant(NLC_SIMD_AVX512) || best == nlc_choose_variant(NLC_SIMD_NEON));
 #if defined(__x86_64__) && defined(__GNUC__)
-    const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"), avx512 = avx2 && __builtin_cpu_supports("avx512f");
+    bool avx2, avx512;
+    ask_processor(&avx2, &avx512);
     ck_assert(nlc_choose_variant(NLC_SIMD_AVX2) == (avx2 ? &nlc_variant_avx2 : NULL));
     ck_assert(nlc_choose_variant(NLC_SIMD_AVX512) == (avx512 ? &nlc_variant_avx512 : nlc_choose_variant(NLC_SIMD_AVX2)));
     ck_assert_ptr_null(nlc_choose_variant(NLC_SIMD_NEON));
@@ -490,6 +614,8 @@ int main(void)
     tcase_add_loop_test(t, blocks, FIRST, LAST);
     tcase_add_loop_test(t, beside_the_sweep, FIRST, LAST);
     tcase_add_loop_test(t, residuals, FIRST, LAST);
+    tcase_add_loop_test(t, starts, FIRST, LAST);
+    tcase_add_loop_test(t, sums_of_looks, FIRST, LAST);
     time_limit(t, 60);
     suite_add_tcase(suite, t);
     return run_suite(suite);

@@ -33,6 +33,17 @@ static inline vec estimate(vec t)
     return vmulq_f64(y, vrsqrtsq_f64(vmulq_f64(t, y), y));
 }
 
+static inline void store_pairs(double *p, vec a, vec b)
+{
+    storeu(p, vzip1q_f64(a, b));
+    storeu(p + LANES, vzip2q_f64(a, b));
+}
+
+static inline vec add_pairs(const double *p)
+{
+    return vpaddq_f64(vld1q_f64(p), vld1q_f64(p + LANES));
+}
+
 static inline void set_directions(double *x, double *y, double *z, const double *const *v, unsigned reversed)
 {
     const uint64x2_t sign = {(uint64_t)(reversed & 1) << 63, (uint64_t)(reversed >> 1) << 63};

@@ -30,6 +30,18 @@ typedef __m256d vec;
 #define nmuladd(a, b, c) _mm256_fnmadd_pd(a, b, c)
 #define estimate(t) _mm256_cvtps_pd(_mm_rsqrt_ps(_mm256_cvtpd_ps(t)))
 
+TARGET static inline void store_pairs(double *p, vec a, vec b)
+{
+    const vec even = _mm256_unpacklo_pd(a, b), odd = _mm256_unpackhi_pd(a, b);
+    storeu(p, _mm256_permute2f128_pd(even, odd, 0x20));
+    storeu(p + LANES, _mm256_permute2f128_pd(even, odd, 0x31));
+}
+
+TARGET static inline vec add_pairs(const double *p)
+{
+    return _mm256_permute4x64_pd(_mm256_hadd_pd(loadu(p), loadu(p + LANES)), 0xd8);
+}
+
 /* Two rows at a time become pairs, [x0 x1 z0 z1] and [y0 y1 0 0], and pairs columns. */
 TARGET static inline void set_directions(double *x, double *y, double *z, const double *const *v, unsigned reversed)
 {

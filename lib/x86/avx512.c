@@ -30,6 +30,20 @@ typedef __m512d vec;
 #define nmuladd(a, b, c) _mm512_fnmadd_pd(a, b, c)
 #define estimate(t) _mm512_rsqrt14_pd(t)
 
+TARGET static inline void store_pairs(double *p, vec a, vec b)
+{
+    const __m512i low = _mm512_set_epi64(11, 3, 10, 2, 9, 1, 8, 0), high = _mm512_set_epi64(15, 7, 14, 6, 13, 5, 12, 4);
+    storeu(p, _mm512_permutex2var_pd(a, low, b));
+    storeu(p + LANES, _mm512_permutex2var_pd(a, high, b));
+}
+
+TARGET static inline vec add_pairs(const double *p)
+{
+    const __m512i even = _mm512_set_epi64(14, 12, 10, 8, 6, 4, 2, 0), odd = _mm512_set_epi64(15, 13, 11, 9, 7, 5, 3, 1);
+    const vec a = loadu(p), b = loadu(p + LANES);
+    return add(_mm512_permutex2var_pd(a, even, b), _mm512_permutex2var_pd(a, odd, b));
+}
+
 /* Rows l and l + 4 share a register; two of these become pairs, [x0 x1 z0 z1 x4 x5 z4 z5] and likewise of y, and pairs columns. */
 TARGET static inline void set_directions(double *x, double *y, double *z, const double *const *v, unsigned reversed)
 {
