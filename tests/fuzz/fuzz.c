@@ -253,19 +253,3 @@ void copy_bytes(void *to, const void *from, size_t size)
 {
     if (size > 0) memcpy(to, from, size);
 }
-
-/* ---- what the processor has */
-
-#if defined(KEEP_VARIANT)
-/* Linked with --wrap=nlc_choose_variant: asked once.  In a virtual machine cpuid takes longer than a small input, 30 us. */
-const struct nlc_variant *__real_nlc_choose_variant(int32_t simd);
-const struct nlc_variant *__wrap_nlc_choose_variant(int32_t simd);
-const struct nlc_variant *__wrap_nlc_choose_variant(int32_t simd)
-{
-    static const struct nlc_variant *kept[8];
-    static bool is_kept[8];
-    if (simd < 0 || simd >= 8) return __real_nlc_choose_variant(simd);
-    if (!is_kept[simd]) kept[simd] = __real_nlc_choose_variant(simd), is_kept[simd] = true;
-    return kept[simd];
-}
-#endif
