@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* settings.c - a network's options: checks, defaults, and what follows from them. */
-#include "network.h"
+#include <string.h>
 
 #include "collective.h"
 #include "hertz.h"
@@ -84,8 +84,8 @@ static double hertz_stiffness_of(const nlc_network *n, int64_t c)
                                b.young, b.poisson, j < n->particle_count ? n->radius[j] : INFINITY);
 }
 
-/* (1-nu^2)/E, relative to the largest; 0 where rigid or not in use. */
-static void set_compliances(nlc_network *n)
+/* (1-nu^2)/E, 2^ what is returned times; the largest is about 1.  0 where rigid or not in use. */
+static int set_compliances(nlc_network *n)
 {
     int softest = INT32_MAX; /* exponent of its modulus */
     for (int64_t m = 0; m < n->material_count; m++) n->kernel[m].compliance = 0;
@@ -102,6 +102,34 @@ static void set_compliances(nlc_network *n)
         const nlc_scaled young = nlc_split(row.young);
         n->kernel[m].compliance = nlc_join((1 - row.poisson * row.poisson) / young.m, softest - young.e);
     }
+    return softest;
+}
+
+/* Whether all radii and finite moduli are so moderate that every n_H can be held. */
+static bool is_moderate(const nlc_network *n)
+{
+    for (int64_t k = 0; k < n->particle_count; k++)
+        if (!nlc_is_moderate(n->radius[k])) return false;
+    for (int64_t m = 0; m < n->material_count; m++)
+        if (nlc_is_finite(n->materials[m].young) && !nlc_is_moderate(n->materials[m].young)) return false;
+    return true;
+}
+
+/* [GC] 8, exponent: of the compliances.  As nlc_hertz_stiffness has it to the last bit, with what belongs to bodies computed once. */
+static void set_stiffnesses(nlc_network *n, int exponent)
+{
+    if (!is_moderate(n)) {
+        for (int64_t c = 0; c < n->contact_count; c++) n->stiffness[c] = hertz_stiffness_of(n, c);
+        return;
+    }
+    double *curvature = n->largest; /* where walls have 0 at other times, too */
+    const double unit = 4 * nlc_pow2(exponent);
+    for (int64_t k = 0; k < n->body_count; k++) curvature[k] = k < n->particle_count ? 1 / n->radius[k] : 0;
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        const int32_t i = n->i[c], j = n->j[c];
+        const double compliance = n->kernel[n->material[i]].compliance + n->kernel[n->material[j]].compliance;
+        n->stiffness[c] = unit / (3 * compliance * sqrt(curvature[i] + curvature[j]));
+    }
 }
 
 void nlc_apply_settings(nlc_network *n, const nlc_settings *settings, const double *stiffness)
@@ -110,11 +138,12 @@ void nlc_apply_settings(nlc_network *n, const nlc_settings *settings, const doub
     n->ranks = (nlc_ranks){.culprit = -1}; /* a failure is that of the callbacks there were */
     nlc_list_straddling(n);
     n->coupling_exponent = n->scale_exponent + nlc_exponent_above(settings->prefactor) + 3;
-    set_compliances(n);
+    const int exponent = set_compliances(n);
     for (int64_t m = 0; m < n->material_count; m++)
         if (settings->model->prepare && nlc_is_material(n->materials[m].young, n->materials[m].poisson))
             settings->model->prepare(&n->kernel[m], n->materials[m].poisson, settings->prefactor);
-    for (int64_t c = 0; c < n->contact_count; c++) n->stiffness[c] = stiffness ? stiffness[c] : hertz_stiffness_of(n, c);
+    if (!stiffness) set_stiffnesses(n, exponent);
+    else if (n->contact_count > 0) memmove(n->stiffness, stiffness, (size_t)n->contact_count * sizeof *stiffness);
     n->top.stiffness = nlc_largest_magnitude(n->stiffness, n->contact_count);
     n->stiffness_exponent = nlc_exponent_above(n->top.stiffness);
 }
@@ -125,7 +154,8 @@ static nlc_status check_stiffnesses(const nlc_network *n, const double *stiffnes
         *culprit = nlc_first_not_positive(stiffness, n->contact_count);
         return *culprit >= 0 ? NLC_ERROR_STIFFNESS : NLC_OK;
     }
-    for (*culprit = 0; *culprit < n->contact_count; ++*culprit)
+    const int64_t count = is_moderate(n) ? 0 : n->contact_count;
+    for (*culprit = 0; *culprit < count; ++*culprit)
         if (!nlc_is_positive(hertz_stiffness_of(n, *culprit))) return NLC_ERROR_RANGE;
     return NLC_OK;
 }

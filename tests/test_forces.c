@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../lib/network.h"
 #include "scene.h"
 
 static const double pi = 3.14159265358979323846;
@@ -38,6 +39,44 @@ START_TEST(isolated_pairs_are_hertz)
     ck_assert_int_eq(info.sweeps, 0);
     ck_assert_int_eq(info.left_out, 5);
     scene_free(&s);
+}
+END_TEST
+
+/* [GC] 8 of each contact as nlc_hertz_stiffness has it, to the last bit: materials alike and apart, rigid ones, walls, any units. */
+START_TEST(stiffnesses_are_hertz)
+{
+    static const double units[] = {1, 1e-30, 1e40, 1e100}; /* the last one is beyond what is moderate */
+    rng g = {17};
+    for (int u = 0; u < 4; u++) {
+        scene s;
+        scene_init(&s);
+        const int32_t material[4] = {scene_material(&s, 1.85e6 * units[u], 0.46), scene_material(&s, 2e11 * units[u], 0.3),
+                                     scene_material(&s, INFINITY, 0), scene_material(&s, 1 / units[u], 0)};
+        for (int k = 0; k < 40; k++) scene_particle(&s, rng_uniform(&g, 1e-3, 1) * units[u], material[k % 4]);
+        const int32_t soft = 40 + scene_wall(&s, material[0]), rigid = 40 + scene_wall(&s, material[2]);
+        for (int c = 0; c < 300; c++) {
+            const int32_t i = (int32_t)rng_below(&g, 40), other = c % 7 == 0 ? soft : c % 7 == 1 ? rigid : (int32_t)rng_below(&g, 40);
+            const int32_t j = i % 4 == 2 && (other == rigid || other % 4 == 2) ? soft : other; /* not two rigid ones */
+            scene_contact(&s, c % 2 ? j : i, c % 2 ? i : j, units[u], 1, 0, 0);
+        }
+        ck_assert_int_eq(scene_build(&s), NLC_OK);
+        for (int again = 0; again < 2; again++) {
+            for (int64_t c = 0; c < s.contacts; c++) {
+                nlc_material m[2];
+                double R[2];
+                for (int side = 0; side < 2; side++) {
+                    const int32_t k = side ? s.j[c] : s.i[c];
+                    m[side] = s.rows[k < 40 ? s.material[k] : s.wall_material[k - 40]];
+                    R[side] = k < 40 ? s.radius[k] : INFINITY;
+                }
+                nlc_assert_same(s.network->stiffness[c], nlc_hertz_stiffness(m[0].young, m[0].poisson, R[0], m[1].young, m[1].poisson, R[1]));
+                s.network->stiffness[c] = 0;
+            }
+            ck_assert_int_eq(nlc_set_options(s.network, &s.options, NULL), NLC_OK);
+        }
+        for (int k = 40; k < 42; k++) nlc_assert_same(s.network->largest[k], 0);
+        scene_free(&s);
+    }
 }
 END_TEST
 
@@ -608,6 +647,7 @@ static Suite *forces(void)
     tcase_set_timeout(t, 60);
     tcase_add_checked_fixture(t, fp_trap, fp_untrap);
     tcase_add_test(t, isolated_pairs_are_hertz);
+    tcase_add_test(t, stiffnesses_are_hertz);
     tcase_add_test(t, chain_has_its_closed_form);
     tcase_add_test(t, chain_follows_its_series);
     tcase_add_test(t, transverse_forces_close_a_contact);
