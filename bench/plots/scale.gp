@@ -15,7 +15,7 @@ set yrange [1:*]
 set xlabel "contacts and candidates"
 set ylabel "ns per contact"
 set key outside bottom center horizontal maxrows 4 samplen 2
-set title "filled, solid: spheres and contacts in random order; open, dashed: numbered by nlc_order; dotted: in the order of space"
+set title "filled, solid: spheres and contacts in random order; open, dashed: numbered by nlc_order; dotted: in the order of space" noenhanced
 plot for [k=1:6] part(k, "lattice") using 1:2 with linespoints lc rgb colours[k] pt 7 lw 1.5 title labels[k], \
     for [k=1:6] part(k, "ordered:lattice") using 1:2 with linespoints lc rgb colours[k] pt 6 dt 2 lw 1.2 notitle, \
     for [k=1:6] part(k, "sorted") using 1:2 with lines lc rgb colours[k] dt 3 lw 1 notitle
