@@ -48,9 +48,7 @@ typedef struct progress {
     int64_t where;
     int stalled;        /* sweeps since it last fell, when it is near rounding */
     int slow;           /* times in a row that it has not halved since the best */
-    double last;        /* the one before */
-    bool plain;         /* the last step was one of go_plainly ... */
-    int plain_steps;    /* ... of which there may be so many more */
+    int plain_steps;    /* steps of go_plainly that there may be still */
     int critical;       /* sweeps in a row with a Ritz value near 1 */
     int looks;          /* those there have been */
     bool warm;          /* a start was given */
@@ -103,8 +101,6 @@ static nlc_verdict judge(nlc_iteration *q, progress *s, nlc_outcome *out)
         s->ratio = energy > s->ratio ? energy : s->ratio;
     }
     if (nlc_is_over(q->n, out)) return NLC_DONE;
-    if (s->plain && s->ratio > s->last) s->plain_steps = 0;
-    s->last = s->ratio;
     s->slow = s->ratio < 0.5 * s->best ? 0 : s->slow + 1;
     s->stalled = s->slow == 0 ? 0 : s->stalled + (s->ratio < ROUNDING);
     s->best = s->ratio < s->best ? s->ratio : s->best;
@@ -146,13 +142,12 @@ static void shorten(nlc_iteration *q)
 /*
  * A step of Algorithm 1, for forces smaller by orders than others, as at the end of a row of balls that just touch.  Where residuals of
  * the largest forces are rounding, combinations of directions follow these, and may get nowhere with the small ones, which a plain
- * sweep settles.  Not where it does not: forces of soft particles beside hard ones may repel each other, or be near the end.
+ * sweep settles.  Not many of them: it settles nothing where forces of soft particles beside hard ones repel each other.
  */
 static void go_plainly(nlc_iteration *q, progress *s)
 {
     const bool stuck = s->slow > 1 && s->ratio > ROUNDING;
-    s->plain = stuck && q->largest_residual <= SETTLED * q->largest_force && s->plain_steps > 0;
-    if (!s->plain) return;
+    if (!stuck || q->largest_residual > SETTLED * q->largest_force || s->plain_steps == 0) return;
     s->plain_steps--;
     for (int d = 0; d < q->directions; d++) q->step[d] = d == 0;
 }

@@ -235,6 +235,36 @@ static double missed(const scene *s)
 }
 
 /*
+ * Long rows with bends whose overlaps differ by up to twelve orders, some of them gaps: forces that are next to nothing are found, too,
+ * from nothing and from a start that knows the large ones only.
+ */
+START_TEST(reached_round_corners)
+{
+    enum { MOST = 450 };
+    rng g = {(uint64_t)(50 + _i)};
+    scene s;
+    scene_init(&s);
+    const int32_t soft = scene_material(&s, 1e6, 0.3), hard = scene_material(&s, 1e9, 0.3);
+    const int balls = 150 + (int)rng_below(&g, MOST - 150);
+    const double deep = pow(10, rng_uniform(&g, -5, -0.7));
+    for (int k = 0; k < balls; k++) scene_particle(&s, rng_uniform(&g, 0.9, 1.1), rng_below(&g, 10) ? soft : hard);
+    for (int k = 0; k + 1 < balls; k++) {
+        const double little = deep * pow(10, -rng_uniform(&g, 2, 14)), less = rng_below(&g, 2) ? little : -little;
+        scene_contact(&s, k, k + 1, k == 0 ? deep : rng_below(&g, 4) ? 0 : less, 1, rng_uniform(&g, -0.6, 0.6), rng_uniform(&g, -0.6, 0.6));
+    }
+    for (int start = 0; start < 2; start++) {
+        nlc_info info = {.struct_size = sizeof info};
+        nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, &info), NLC_OK));
+        if (verbose()) printf("row %d, %d balls: %d sweeps, missed %.1e\n", _i, balls, (int)info.sweeps, missed(&s));
+        ck_assert_int_le(info.sweeps, 150);
+        ck_assert(missed(&s) <= 1e-8); /* the tolerance: lambda is small */
+        for (int64_t c = 0; c < s.contacts; c++) s.nonlocal[c] *= s.force[c] > 1e-9 * s.force[0];
+    }
+    scene_free(&s);
+}
+END_TEST
+
+/*
  * A steel ball between walls beside a soft one with forty contacts, which push each other away, at forces smaller by orders: plain sweeps
  * from one to the next get nowhere there.  All eigenvalues are below 0 or small, so that the error is no more than twice what is missed.
  */
@@ -1000,6 +1030,7 @@ int main(void)
     tcase_add_test(t, softest_on_a_sphere);
     tcase_add_test(t, circles_of_many);
     tcase_add_loop_test(t, reached_along_a_row, 0, 4);
+    tcase_add_loop_test(t, reached_round_corners, 0, 60);
     tcase_add_loop_test(t, hard_beside_soft, 0, 3);
     tcase_add_test(t, loose_among_many);
     tcase_add_test(t, nothing_to_start_from);
