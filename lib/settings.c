@@ -102,7 +102,7 @@ static int set_compliances(nlc_network *n)
         const nlc_scaled young = nlc_split(row.young);
         n->kernel[m].compliance = nlc_join((1 - row.poisson * row.poisson) / young.m, softest - young.e);
     }
-    return softest;
+    return softest < INT32_MAX ? softest : 0; /* where nothing yields there are no contacts */
 }
 
 /* Whether all radii and finite moduli are so moderate that every n_H can be held. */

@@ -77,6 +77,12 @@ START_TEST(stiffnesses_are_hertz)
         for (int k = 40; k < 42; k++) nlc_assert_same(s.network->largest[k], 0);
         scene_free(&s);
     }
+    scene none; /* and where there is nothing that yields */
+    scene_init(&none);
+    for (int k = 0; k < 2; k++) scene_particle(&none, 1, k == 0 ? scene_material(&none, INFINITY, 0) : 0);
+    ck_assert_int_eq(scene_build(&none), NLC_OK);
+    ck_assert_int_eq(nlc_set_options(none.network, &none.options, NULL), NLC_OK);
+    scene_free(&none);
 }
 END_TEST
 
