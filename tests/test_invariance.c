@@ -538,20 +538,20 @@ END_TEST
 /* Radii whose sum is beyond double: the same bits as in a unit of length of 2^1020, at moduli that keep the forces in range. */
 START_TEST(largest_radii)
 {
-    double force[2][4];
+    double force[2][5];
     for (int large = 0; large < 2; large++) {
         scene s;
         scene_init(&s);
         s.options.model = NLC_MODEL_SPHERE;
         const double unit = large ? 0x1p1020 : 1;
         const int32_t m = scene_material(&s, large ? 0x1p-1020 : 1, 0.3);
-        for (int k = 0; k < 5; k++) scene_particle(&s, unit * (k == 0 ? 8 : k == 4 ? 0.5 : 15), m);
-        for (int k = 0; k < 4; k++) scene_contact(&s, 0, k + 1, unit * 0x1p-40, k == 0, k == 1, (k == 2) - (k == 3));
+        for (int k = 0; k < 6; k++) scene_particle(&s, unit * (k == 0 ? 8 : k == 4 ? 0.5 : k == 5 ? 0x1p-24 : 15), m);
+        for (int k = 0; k < 5; k++) scene_contact(&s, 0, k + 1, unit * 0x1p-40, k == 0, (k == 1) - (k == 4), (k == 2) - (k == 3));
         nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, NULL), NLC_OK));
-        for (int k = 0; k < 4; k++) force[large][k] = s.force[k] / unit;
+        for (int k = 0; k < 5; k++) force[large][k] = s.force[k] / unit;
         scene_free(&s);
     }
-    for (int k = 0; k < 4; k++) nlc_assert_same(force[1][k], force[0][k]);
+    for (int k = 0; k < 5; k++) nlc_assert_same(force[1][k], force[0][k]);
 }
 END_TEST
 
