@@ -39,7 +39,9 @@
 #define LINEAR_STEPS 6    /* nor more steps */
 #define ROUNDING 1e-13    /* residuals below may be rounding */
 #define SETTLED 1e-15     /* and below this one, relative to the largest force, nothing else */
-#define PLAIN_STEPS 16    /* in a solve, at most */
+#define PLAIN_FROM 4      /* steps without the residual halving: then ... */
+#define PLAIN_STEPS 8     /* ... so many plain ones, and again ... */
+#define PLAIN_EVERY 32    /* ... in the next of these without */
 
 enum { NONE = -1, EARLY, ROUGH, CLOSER }; /* looks */
 
@@ -48,7 +50,6 @@ typedef struct progress {
     int64_t where;
     int stalled;        /* sweeps since it last fell, when it is near rounding */
     int slow;           /* times in a row that it has not halved since the best */
-    int plain_steps;    /* steps of go_plainly that there may be still */
     int critical;       /* sweeps in a row with a Ritz value near 1 */
     int looks;          /* those there have been */
     bool warm;          /* a start was given */
@@ -142,13 +143,13 @@ static void shorten(nlc_iteration *q)
 /*
  * A step of Algorithm 1, for forces smaller by orders than others, as at the end of a row of balls that just touch.  Where residuals of
  * the largest forces are rounding, combinations of directions follow these, and may get nowhere with the small ones, which a plain
- * sweep settles.  Not many of them: it settles nothing where forces of soft particles beside hard ones repel each other.
+ * sweep settles.  Not many of them in a row: it settles nothing where forces of soft particles beside hard ones repel each other.
  */
-static void go_plainly(nlc_iteration *q, progress *s)
+static void go_plainly(nlc_iteration *q, const progress *s)
 {
-    const bool stuck = s->slow > 1 && s->ratio > ROUNDING;
-    if (!stuck || q->largest_residual > SETTLED * q->largest_force || s->plain_steps == 0) return;
-    s->plain_steps--;
+    const int idle = s->slow % PLAIN_EVERY;
+    if (idle <= PLAIN_FROM || idle > PLAIN_FROM + PLAIN_STEPS || s->ratio <= ROUNDING) return;
+    if (q->largest_residual > SETTLED * q->largest_force) return;
     for (int d = 0; d < q->directions; d++) q->step[d] = d == 0;
 }
 
@@ -246,8 +247,7 @@ static nlc_verdict iterate(nlc_iteration *q, progress *s, nlc_outcome *out)
 static void solve(nlc_network *n, const double *overlap, const double *normal, double part, bool warm, nlc_outcome *out)
 {
     nlc_iteration q;
-    progress s = {.ratio = 1e10, .best = INFINITY, .where = -1, .warm = warm, .begun = out->info.sweeps, .first = true,
-                  .plain_steps = PLAIN_STEPS};
+    progress s = {.ratio = 1e10, .best = INFINITY, .where = -1, .warm = warm, .begun = out->info.sweeps, .first = true};
     if (!n->swept) n->known_bound = 1; /* it was for another start */
     nlc_iteration_start(&q, n, overlap, normal, part);
     const nlc_verdict v = iterate(&q, &s, out);

@@ -300,6 +300,52 @@ START_TEST(hard_beside_soft)
 END_TEST
 
 /*
+ * The same by chance: one to four soft balls with 4 to 53 contacts, and rows of others behind them, at tolerances that rounding may not
+ * allow.  What combinations of directions have settled for the steel ball they leave undone beside it.
+ */
+START_TEST(steel_among_soft)
+{
+    static const double tolerances[] = {1e-6, 1e-8, 1e-10, 1e-12};
+    rng g = {71};
+    for (uint64_t scenes = points(1500); scenes > 0; scenes--) {
+        scene s;
+        nlc_info info = {.struct_size = sizeof info};
+        scene_init(&s);
+        s.options.tolerance = tolerances[rng_below(&g, 4)];
+        const int32_t steel = scene_material(&s, 2e11, 0.3), soft = scene_material(&s, pow(10, rng_uniform(&g, 3, 9)), rng_below(&g, 3) ? 0 : 0.3);
+        const int32_t other = scene_material(&s, pow(10, rng_uniform(&g, 4, 11)), 0.2), rigid = scene_material(&s, INFINITY, 0);
+        const int balls = 1 + (int)rng_below(&g, 4), behind = 3 * (int)rng_below(&g, 5);
+        const double size = pow(10, -rng_uniform(&g, 0, 2.5)), fall = pow(10, -rng_uniform(&g, 0, 3));
+        const int32_t wall = 1 + balls * (1 + behind) + scene_wall(&s, rigid);
+        scene_particle(&s, 1, steel);
+        for (int side = 0; side < 5; side++)
+            scene_contact(&s, 0, wall, 0.02 * rng_uniform(&g, 0.3, 1.3), side == 4 ? -1 : 0, (side < 2) * (1 - 2 * (side & 1)),
+                          (side == 2) - (side == 3));
+        for (int b = 0; b < balls; b++) {
+            const double R = size * rng_uniform(&g, 0.5, 1.5), deep = R * rng_uniform(&g, 0.005, 0.035);
+            const int count = 4 + (int)rng_below(&g, 50);
+            int32_t last = scene_particle(&s, R, rng_below(&g, 4) ? soft : other);
+            double overlap = rng_below(&g, 2) ? 0 : deep * fall;
+            scene_contact(&s, 0, last, rng_below(&g, 5) ? 0.01 * R * rng_uniform(&g, 0, 1) : 0, 1, 0.8 * b / balls, 0.4 - 0.8 * b / balls);
+            for (int k = 2; k < count; k++) {
+                const double z = (2 * k + 1.) / count - 1, r = sqrt(1 - z * z), turn = 2.399963229728653 * k;
+                scene_contact(&s, last, wall, deep * (1 + 0.2 * sin(k)), z, r * cos(turn), r * sin(turn));
+            }
+            for (int k = 0; k < behind; k++, overlap *= fall) {
+                const int32_t next = scene_particle(&s, size * rng_uniform(&g, 0.5, 1.5), rng_below(&g, 8) ? soft : other);
+                scene_contact(&s, last, next, rng_below(&g, 3) ? 0 : overlap, 0.35, -1, 0);
+                last = next;
+            }
+        }
+        nlc_status status;
+        nlc_assert_quiet(status = scene_solve(&s, &info));
+        ck_assert_int_eq(status & ~(NLC_WARNING_CLOSE | NLC_WARNING_ROUNDING | NLC_WARNING_WEAKENED), NLC_OK);
+        scene_free(&s);
+    }
+}
+END_TEST
+
+/*
  * One contact among many that only just touch, and a tolerance so wide that Hertz' law might do for it: the bound of lambda, which
  * counts all of them as if they were like the one, has the last word.
  */
@@ -1032,6 +1078,7 @@ int main(void)
     tcase_add_loop_test(t, reached_along_a_row, 0, 4);
     tcase_add_loop_test(t, reached_round_corners, 0, 60);
     tcase_add_loop_test(t, hard_beside_soft, 0, 3);
+    tcase_add_test(t, steel_among_soft);
     tcase_add_test(t, loose_among_many);
     tcase_add_test(t, nothing_to_start_from);
     tcase_add_test(t, overlap_beyond_radius);
