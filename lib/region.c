@@ -7,6 +7,7 @@
  * has little to do.  A change fades by a factor of some 5 to 10 from one neighbour to the next, which decides on the seam.
  */
 #include "active.h"
+#include "iteration.h"
 #include "structs.h"
 
 #define FEWEST 256   /* contacts for which it is worth while */
@@ -50,14 +51,15 @@ static bool sweep(nlc_network *n, const double *overlap, const double *normal, n
     return n->swept;
 }
 
-/* Marks those that change; the largest relative change. */
+/* Marks those that change; the largest relative change.  A displacement beyond all solutions, which might overflow, is cut. */
 static double find_changes(nlc_network *n, const double *overlap, int64_t *moving)
 {
+    const double farthest = NLC_FARTHEST * n->top.overlap;
     double most = 0;
     *moving = 0;
     for (int64_t c = 0; c < n->contact_count; c++) {
         const double a = n->largest[n->i[c]], b = n->largest[n->j[c]], scale = a > b ? a : b;
-        const double change = fabs(nlc_law(n->stiffness[c], overlap[c] + swept(n, c)) - n->force[c]);
+        const double y = overlap[c] + swept(n, c), change = fabs(nlc_law(n->stiffness[c], y < farthest ? y : farthest) - n->force[c]);
         const bool moves = change > QUIET * n->settings.tolerance * scale;
         n->mark[c] = moves ? NLC_NEW : NLC_OUT;
         *moving += moves;

@@ -139,6 +139,37 @@ START_TEST(absurd_numbers_are_survived)
 }
 END_TEST
 
+/* Overlaps and starts of all sizes beside each other, solved twice: an error or finite forces, and no exception. */
+START_TEST(absurd_overlaps_are_survived)
+{
+    rng g = {61};
+    for (uint64_t scenes = points(300); scenes > 0; scenes--) {
+        scene s;
+        scene_init(&s);
+        s.options.max_sweeps = 40;
+        const int n = 3 + (int)rng_below(&g, 2), kind = (int)rng_below(&g, 3);
+        const int32_t m = scene_material(&s, 1e9, rng_uniform(&g, 0, 0.5)), hard = scene_material(&s, 2e11, 0.3);
+        for (int k = 0; k < n * n * n; k++) scene_particle(&s, 1, rng_below(&g, 10) ? m : hard);
+        for (int k = 0; k < n * n * n; k++)
+            for (int axis = 0, step = 1; axis < 3; axis++, step *= n) {
+                if (k / step % n == n - 1 || rng_below(&g, 9) == 0) continue;
+                const double x = rng_uniform(&g, 1e-3, 0.1) * (rng_below(&g, 4) ? 1 : -1);
+                const int e = kind == 0 ? 0 : kind == 1 ? (int)rng_below(&g, 2040) - 1020 : (int)rng_below(&g, 300);
+                scene_contact(&s, k, k + step, ldexp(x, e), (axis == 0) + rng_uniform(&g, -0.1, 0.1), axis == 1, axis == 2);
+            }
+        if (scene_build(&s) == NLC_OK) {
+            for (int64_t c = 0; c < s.contacts; c++) s.nonlocal[c] = rng_below(&g, 3) ? rng_uniform(&g, -0.3, 0.7) * s.overlap[c] : 0;
+            for (int again = 0; again < 2; again++) {
+                nlc_status status;
+                nlc_assert_quiet(status = nlc_solve(s.network, s.force, s.nonlocal, s.overlap, s.normal, NULL));
+                for (int64_t c = 0; c < s.contacts && status >= 0; c++) ck_assert(isfinite(s.force[c]) && isfinite(s.nonlocal[c]) && s.force[c] >= 0);
+            }
+        }
+        scene_free(&s);
+    }
+}
+END_TEST
+
 /* In another order of the contacts the sums are rounded in another order, no more. */
 START_TEST(order_of_contacts_changes_last_bits_only)
 {
@@ -564,6 +595,7 @@ int main(void)
     tcase_add_loop_test(t, exchange_of_sides_changes_no_bit, 0, 4);
     tcase_add_test(t, exchange_of_sides_changes_no_bit_when_weakened);
     tcase_add_test(t, absurd_numbers_are_survived);
+    tcase_add_test(t, absurd_overlaps_are_survived);
     tcase_add_test(t, order_of_contacts_changes_last_bits_only);
     tcase_add_test(t, coupling_is_symmetric);
     tcase_add_test(t, rotation_changes_nothing);
