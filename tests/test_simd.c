@@ -410,6 +410,15 @@ START_TEST(beside_the_sweep)
 }
 END_TEST
 
+/* One sphere with so many contacts, and an iteration in units that change no stiffness; half of the overlaps is applied. */
+static nlc_iteration one_star(scene *s, rng *g, int contacts, int simd)
+{
+    stars(s, g, 1, contacts, contacts);
+    s->options.simd = simd;
+    ck_assert_int_eq(scene_build(s), NLC_OK);
+    return (nlc_iteration){.n = s->network, .overlap = s->overlap, .normal = s->normal, .per_stiffness = 1, .load = 0.5};
+}
+
 /*
  * Residuals [GC] 10 and forces of the law in long double, to rounding: the root of an overlap that is off by 2^-53, and three products;
  * slopes of the chord to what one step of Halley's method is off, 2e-4 where forces differ by a quarter.  And the largest of them,
@@ -420,12 +429,9 @@ START_TEST(residuals)
     enum { COUNT = 21 };
     rng g = {39};
     scene s;
-    stars(&s, &g, 1, COUNT, COUNT);
-    s.options.simd = _i;
-    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    const nlc_iteration q = one_star(&s, &g, COUNT, _i);
     nlc_network *n = s.network;
     const nlc_variant *v = n->settings.variant;
-    const nlc_iteration q = {.n = n, .overlap = s.overlap, .normal = s.normal, .per_stiffness = 1, .load = 0.5};
     for (int round = 0; round < 4 * COUNT && v; round++) {
         double z[COUNT], inverse[COUNT], force[COUNT], top = 0, most = 0;
         nlc_extremes found = {0, 0, false};
@@ -471,12 +477,9 @@ START_TEST(starts)
     enum { COUNT = 21 };
     rng g = {40};
     scene s;
-    stars(&s, &g, 1, COUNT, COUNT);
-    s.options.simd = _i;
-    ck_assert_int_eq(scene_build(&s), NLC_OK);
+    const nlc_iteration q = one_star(&s, &g, COUNT, _i);
     nlc_network *n = s.network;
     const nlc_variant *v = n->settings.variant;
-    const nlc_iteration q = {.n = n, .overlap = s.overlap, .normal = s.normal, .per_stiffness = 1, .load = 0.5};
     double nonlocal[COUNT], U[COUNT], y[COUNT], size[COUNT], alone[COUNT], energy[COUNT], slope[COUNT];
     const nlc_guess guess = {nonlocal, 0.25};
     for (int round = 0; round < 3 * COUNT && v; round++) {
