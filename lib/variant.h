@@ -13,8 +13,11 @@
 #include "model.h"
 #include "nlcontact.h"
 
-/* Compilers that can be told to use what not every processor has, function by function. */
-#if defined(__GNUC__) && defined(__x86_64__)
+/*
+ * Compilers that can be told to use what not every processor has, function by function, and whose run-time library asks whether the
+ * system keeps the registers: gcc's did not before 6.5, 7.4 and 8.1 (its bug 85100).
+ */
+#if defined(__x86_64__) && (defined(__clang__) || (defined(__GNUC__) && 100 * __GNUC__ + __GNUC_MINOR__ >= 704))
 #define NLC_HAVE_X86 1
 #elif defined(__GNUC__) && defined(__aarch64__) && defined(__ARM_NEON)
 #define NLC_HAVE_NEON 1
