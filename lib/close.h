@@ -8,13 +8,13 @@
 /* The displacement found for a contact, in the caller's units. */
 static inline double nlc_answer(const nlc_network *n, int64_t c)
 {
-    return n->answered ? (n->side[2 * c] + n->side[2 * c + 1]) / nlc_pow2(n->length_unit) : n->current[c];
+    return n->answered ? (n->side[2 * c] + n->side[2 * c + 1]) * nlc_pow2(-n->length_unit) : n->current[c];
 }
 
 /* Those of the contacts from first to end. */
 static inline void nlc_answers(const nlc_network *n, int64_t first, int64_t end, double *answers)
 {
-    const double per_unit = nlc_pow2(-n->length_unit); /* as exact as a division */
+    const double per_unit = nlc_pow2(-n->length_unit);
     if (!n->answered) memcpy(answers + first, n->current + first, (size_t)(end - first) * sizeof *answers);
     else
         for (int64_t c = first; c < end; c++) answers[c] = (n->side[2 * c] + n->side[2 * c + 1]) * per_unit;

@@ -39,9 +39,9 @@
 #define LINEAR_STEPS 6    /* nor more steps */
 #define ROUNDING 1e-13    /* residuals below may be rounding */
 #define SETTLED 1e-15     /* and below this one, relative to the largest force, nothing else */
-#define PLAIN_FROM 4      /* steps without the residual halving: then ... */
-#define PLAIN_STEPS 8     /* ... so many plain ones, and again ... */
-#define PLAIN_EVERY 32    /* ... in the next of these without */
+#define PLAIN_FROM 4      /* after more than so many looks at a residual above half of the least before ... */
+#define PLAIN_STEPS 8     /* ... there are so many plain steps, and again ... */
+#define PLAIN_EVERY 32    /* ... after so many looks */
 
 enum { NONE = -1, EARLY, ROUGH, CLOSER }; /* looks */
 
@@ -49,7 +49,7 @@ typedef struct progress {
     double ratio, best; /* residual relative to the force nearby, and the smallest so far */
     int64_t where;
     int stalled;        /* sweeps since it last fell, when it is near rounding */
-    int slow;           /* times in a row that it has not halved since the best */
+    int slow;           /* looks in a row that have found it above half of the least before */
     int critical;       /* sweeps in a row with a Ritz value near 1 */
     int looks;          /* those there have been */
     bool warm;          /* a start was given */
