@@ -706,10 +706,10 @@ NLC_API nlc_status nlc_set_options(nlc_network *network, const nlc_options *opti
  *
  * Where a solve needs several sweeps the normals are the same in all of them.  Some models then keep what depends on nothing else, if
  * they are given room by options.cache: NLC_MODEL_SPHERE and NLC_MODEL_POINT_FORCE two numbers for each two contacts of a
- * particle, about 170 bytes a contact in a dense packing, for solves in two thirds of the time; NLC_MODEL_GONZALEZ_CUITINO and
- * NLC_MODEL_HALF_SPACE at undeformed points one number, but not in portable C, for solves in some four fifths of the time as long as
- * it all stays in the processor's caches; beyond them, and in solves of one sweep, computing is quicker.  The results are the same,
- * bit for bit.  With less room as much is kept as it holds.
+ * particle, about 170 bytes a contact in a dense packing, for solves in two thirds of the time, or nine tenths where it does not
+ * stay in the processor's caches; NLC_MODEL_GONZALEZ_CUITINO and NLC_MODEL_HALF_SPACE at undeformed points one number, but not in
+ * portable C, for solves in some six sevenths of the time as long as it does; else, and in solves of one or a few sweeps, computing is
+ * quicker.  The results are the same, bit for bit.  With less room as much is kept as it holds.
  *
  * network   from nlc_network_init
  * Ask when the network has been made, and hand the memory over by nlc_set_options.  It must not be used by another network, or by
@@ -737,7 +737,8 @@ NLC_API size_t nlc_cache_size(const nlc_network *network);
  * eigenvalue of D^1/2 C D^1/2 (C the coupling, D the slopes dP/dx of the contacts), reaches 1; errors are amplified by
  * 1/(1 - lambda) on the way there.  The default method stops when a residual over 1 - info.lambda_upper says that the tolerance
  * is met, lambda_upper being a proved bound (on particles with more than 64 contacts with a force, an estimate by Lanczos'
- * method); info.residual is that estimate of the error.
+ * method); info.residual is that estimate of the error.  On particles whose forces are all below 1e-15 of the largest of all,
+ * forces may be off by that much: what is left of them is rounding.
  *
  * Particles with very many contacts.  What one contact does to another is not computed pair by pair where a particle has more
  * than about 450 p contacts, p from 4 (tolerance 1e-2) through 11 (1e-8) to 18 (4e-14), or more than 127 in NLC_MODEL_SPHERE:
