@@ -23,14 +23,22 @@ typedef struct largest {
     double stiffness, force, in, coupling_exponent;
 } largest;
 
+/* What is given to one of the functions; where there is no vector in, bad_in is NLC_OK. */
+typedef struct given {
+    const double *out, *in, *force, *normal;
+    nlc_status bad_in;
+    nlc_function function;
+} given;
+
 /* Sets network->unit, and network->slope to D.  False: beyond the range of double, or of what can be coupled. */
 static bool set_slopes(nlc_network *n, const double *force, const largest *top, units *result)
 {
-    units u = {nlc_exponent_above(top->stiffness), nlc_exponent_above(top->force), 0};
+    const bool none = top->stiffness <= 0; /* no contacts, or none that yields: no slopes */
+    units u = {none ? 0 : nlc_exponent_above(top->stiffness), none ? 0 : nlc_exponent_above(top->force), 0};
     u.force += (3 - (u.force - u.stiffness) % 3) % 3; /* the unit of overlap, (P/k)^(2/3), is to be a power of 2, too */
     u.slope = u.stiffness + (u.force - u.stiffness) / 3;
     *result = u;
-    if (u.slope > 1000 || u.slope < -1000 || (int)top->coupling_exponent + u.slope > 200) return false;
+    if (!none && (u.slope > 1000 || u.slope < -1000 || (int)top->coupling_exponent + u.slope > 200)) return false;
     n->cached = false;
     nlc_set_units(n, -2 * ((u.force - u.stiffness) / 3), -u.stiffness);
     for (int64_t c = 0; c < n->contact_count; c++) {
@@ -120,11 +128,20 @@ static nlc_status check(nlc_network *n, const double *in, const double *force, c
     return NLC_OK;
 }
 
-/* Scaled copy, top being the largest; returns its unit's exponent. */
-static int scale_down(double *to, const double *from, int64_t count, double top)
+/* Largest magnitude on contacts with a force: others have no part in the tangent, whatever is said of them. */
+static double largest_of(const given *g, int64_t count)
+{
+    double top = 0;
+    for (int64_t c = 0; c < count; c++)
+        if (g->force[c] > 0 && fabs(g->in[c]) > top) top = fabs(g->in[c]);
+    return top;
+}
+
+/* Scaled copy, 0 on contacts without force, top being the largest; returns its unit's exponent. */
+static int scale_down(double *to, const given *g, int64_t count, double top)
 {
     const int e = nlc_exponent_above(top);
-    for (int64_t c = 0; c < count; c++) to[c] = nlc_join(from[c], -e);
+    for (int64_t c = 0; c < count; c++) to[c] = g->force[c] > 0 ? nlc_join(g->in[c], -e) : 0;
     return e;
 }
 
@@ -148,13 +165,6 @@ typedef struct call {
     units u;
     int in; /* exponent of the unit of the vector, whose scaled copy is in spare[0] */
 } call;
-
-/* What is given to one of the functions; where there is no vector in, bad_in is NLC_OK. */
-typedef struct given {
-    const double *out, *in, *force, *normal;
-    nlc_status bad_in;
-    nlc_function function;
-} given;
 
 static nlc_status check_arguments(nlc_network *n, const given *g, int64_t *culprit)
 {
@@ -192,7 +202,7 @@ static bool begin(call *k, nlc_network *n, const given *g, nlc_info *info)
         if (k->o.status == NLC_OK) {
             top.stiffness = nlc_largest_magnitude(n->stiffness, n->contact_count);
             top.force = nlc_largest_magnitude(g->force, n->contact_count);
-            top.in = g->bad_in != NLC_OK ? nlc_largest_magnitude(g->in, n->contact_count) : 0;
+            top.in = g->bad_in != NLC_OK ? largest_of(g, n->contact_count) : 0;
         }
         if (shared) {
             double values[4] = {top.stiffness, top.force, top.in, top.coupling_exponent};
@@ -204,7 +214,7 @@ static bool begin(call *k, nlc_network *n, const given *g, nlc_info *info)
             if (!set_slopes(n, g->force, &top, &k->u)) k->o.status = NLC_ERROR_RANGE;
             if (k->o.status == NLC_OK) k->o.status = set_state(n, g->force, g->normal, k->u, &k->o.info);
             if (k->o.status == NLC_OK) {
-                if (g->bad_in != NLC_OK) k->in = scale_down(n->spare[0], g->in, n->contact_count, top.in);
+                if (g->bad_in != NLC_OK) k->in = scale_down(n->spare[0], g, n->contact_count, top.in);
                 return true;
             }
             nlc_take_leave(n, 0, &k->o);

@@ -1013,6 +1013,28 @@ START_TEST(empty_networks)
 }
 END_TEST
 
+/* Particles that do not touch: nothing holds them, in every model and whatever the units. */
+START_TEST(particles_without_contacts)
+{
+    for (int model = 0; model < 6; model++)
+        for (int e = -800; e <= 800; e += 400) {
+            scene s;
+            scene_init(&s);
+            s.options.model = model;
+            const int32_t m = scene_material(&s, ldexp(1, e), 0.3);
+            for (int k = 0; k < 3; k++) scene_particle(&s, 1 + k, m);
+            ck_assert_int_eq(scene_build(&s), NLC_OK);
+            double bound[3] = {7, 7, 7}, energy = 7;
+            const bool potential = model != NLC_MODEL_HALF_SPACE && model != NLC_MODEL_LOVE;
+            nlc_assert_quiet(ck_assert_int_eq(nlc_tangent_bound(s.network, bound, 0, 0, 0), potential ? NLC_OK : NLC_ERROR_NO_POTENTIAL));
+            for (int k = 0; k < 3; k++) nlc_assert_same(bound[k], potential ? 0 : 7);
+            ck_assert_int_eq(nlc_energy(s.network, &energy, 0, 0, 0, 0), potential ? NLC_OK : NLC_ERROR_NO_POTENTIAL);
+            nlc_assert_same(energy, potential ? 0 : 7);
+            scene_free(&s);
+        }
+}
+END_TEST
+
 /* An info without its size: nothing can be said there, and nothing is done. */
 START_TEST(info_without_a_size)
 {
@@ -1083,6 +1105,7 @@ int main(void)
     tcase_add_test(t, carrying);
     tcase_add_test(t, updates);
     tcase_add_test(t, empty_networks);
+    tcase_add_test(t, particles_without_contacts);
     tcase_add_test(t, ranks);
     tcase_add_test(t, every_error_was_met);
     tcase_add_test(t, info_without_a_size);

@@ -310,6 +310,34 @@ START_TEST(units_do_not_matter)
 }
 END_TEST
 
+/* What is said of contacts without force has no part in it, however large. */
+START_TEST(open_contacts_do_not_matter)
+{
+    for (int model = 0; model < 2; model++) {
+        scene s;
+        make(&s, 1);
+        s.options.model = model ? NLC_MODEL_HERTZ : NLC_MODEL_GONZALEZ_CUITINO;
+        scene_contact(&s, 0, scene_particle(&s, 1, s.material[0]), -1, 0.36, 0.48, 0.8);
+        free(s.force), free(s.nonlocal), free(s.memory);
+        s.force = s.nonlocal = 0, s.memory = 0, s.network = 0;
+        ck_assert_int_eq(scene_solve(&s, 0), NLC_OK);
+        const int64_t open = s.contacts - 1;
+        nlc_assert_same(s.force[open], 0);
+        double in[64], out[2][64];
+        for (int64_t c = 0; c < s.contacts; c++) in[c] = s.overlap[c];
+        for (int inverse = 0; inverse < 2; inverse++)
+            for (int large = 0; large < 12; large++) {
+                in[open] = large ? ldexp(-1, 93 * large) : 0;
+                nlc_assert_quiet(ck_assert_int_eq((inverse ? nlc_tangent_inverse : nlc_tangent)(s.network, out[large > 0], in, s.force, s.normal, 0), NLC_OK));
+                for (int64_t c = 0; c < s.contacts; c++) nlc_assert_same(out[large > 0][c], out[0][c]);
+                nlc_assert_same(out[0][open], 0);
+                ck_assert(fabs(out[0][0]) > 0);
+            }
+        scene_free(&s);
+    }
+}
+END_TEST
+
 /*
  * Two contacts in the same direction, on particles whose block is looked at in one piece and on one with more contacts: without a
  * bound, however stiff they are, and without an exception.
@@ -381,6 +409,7 @@ int main(void)
     tcase_add_test(t, tridiagonal);
     tcase_add_test(t, memory_need_not_be_clean);
     tcase_add_test(t, units_do_not_matter);
+    tcase_add_test(t, open_contacts_do_not_matter);
     tcase_add_test(t, equal_directions);
     tcase_add_test(t, close_and_large);
     suite_add_tcase(suite, t);
