@@ -65,7 +65,10 @@ static inline double nlc_weighed_root(double root)
     return 1.005 * root + 0.01;
 }
 
-/* units.c: sets the units. */
+/* units.c: what overlaps are next to, of which largest is the largest magnitude. */
+double nlc_unit_of_overlaps(const double *overlap, int64_t count, double largest);
+
+/* Sets the units. */
 void nlc_iteration_units(nlc_iteration *q, nlc_network *network, const double *overlap, const double *normal, double part);
 /* Sets the units, the start (network->force from network->current, which it scales) and the floor of the slopes. */
 void nlc_iteration_start(nlc_iteration *q, nlc_network *network, const double *overlap, const double *normal, double part);

@@ -23,10 +23,23 @@ static void largest_overlaps(nlc_iteration *q)
     for (int64_t k = 0; k < n->body_count; k++) n->largest[k] = (shared ? nlc_shared_overlaps(n) : n->largest)[k] * q->load;
 }
 
+/* Gaps wider than this many of the deepest overlap are never closed and have no say in the unit, ... */
+#define WIDE 0x1p64
+/* ... unless they are wider than this many: then they cannot be calculated with in a unit of overlaps. */
+#define WIDEST 0x1p400
+
+double nlc_unit_of_overlaps(const double *overlap, int64_t count, double largest)
+{
+    double deepest = 0;
+    for (int64_t c = 0; c < count && deepest < largest / WIDE; c++) deepest = overlap[c] > deepest ? overlap[c] : deepest;
+    return deepest < largest / WIDE && deepest > largest / WIDEST ? deepest : largest;
+}
+
 void nlc_iteration_units(nlc_iteration *q, nlc_network *n, const double *overlap, const double *normal, double part)
 {
     *q = (nlc_iteration){.n = n, .overlap = overlap, .normal = normal, .directions = 1};
-    const double top = n->top.overlap >= 0 ? n->top.overlap : nlc_largest_magnitude(overlap, n->contact_count);
+    const bool known = n->top.overlap >= 0;
+    const double top = known ? n->top.overlap : nlc_unit_of_overlaps(overlap, n->contact_count, nlc_largest_magnitude(overlap, n->contact_count));
     const double stiffest = n->top.stiffness >= 0 ? n->top.stiffness : nlc_largest_magnitude(n->stiffness, n->contact_count);
     const int length = per_unit_of(top, 2); /* its root is a power of 2, too */
     const int stiffness = per_unit_of(stiffest, 1);

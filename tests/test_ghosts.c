@@ -232,6 +232,24 @@ START_TEST(beyond_the_end)
 }
 END_TEST
 
+/* A candidate that is far away on one rank is in the units of none.  NLC_MODEL_LOVE begins anew there, with more exchanges than most. */
+START_TEST(far_away)
+{
+    rng g = {3};
+    for (int k = 0; k < 5 && _i != NLC_MODEL_LOVE; k++) {
+        scene s;
+        scene_init(&s);
+        choose(&s, _i);
+        scene_lattice(&s, BODY_CENTRED, 3, 1, 0.3, 0.02, 1e-3, &g);
+        int64_t far = 0;
+        while (s.overlap[far] >= 0) far++;
+        s.overlap[far] = -1e90;
+        compare(&s, counts[k], k % 3, 1e-11, &g, "far away");
+        scene_free(&s);
+    }
+}
+END_TEST
+
 /* Sweep, energy and the three tangents, against those of the whole. */
 START_TEST(other_functions)
 {
@@ -1093,6 +1111,7 @@ int main(void)
     tcase_add_loop_test(t, same_forces, 0, MODELS);
     tcase_add_loop_test(t, loads, 0, 3);
     tcase_add_loop_test(t, beyond_the_end, 0, MODELS);
+    tcase_add_loop_test(t, far_away, 0, MODELS);
     tcase_add_loop_test(t, other_functions, 0, MODELS);
     tcase_add_loop_test(t, steps, 0, MODELS);
     tcase_add_loop_test(t, pushed_open, 0, 8);

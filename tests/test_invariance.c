@@ -392,6 +392,35 @@ START_TEST(start_does_not_matter)
 }
 END_TEST
 
+/* A candidate far away is one like any other: the forces are what they were, twice within the tolerance of the exact ones. */
+START_TEST(wide_gaps)
+{
+    static const int models[] = {NLC_MODEL_GONZALEZ_CUITINO, NLC_MODEL_HALF_SPACE, NLC_MODEL_LOVE, NLC_MODEL_SPHERE, NLC_MODEL_POINT_FORCE};
+    for (int which = 0; which < 4; which++) { /* where many candidates are left out and where they are not; cold and warm */
+        rng g = {7};
+        scene s;
+        scene_init(&s);
+        scene_lattice(&s, BODY_CENTRED, 3, 1, 0.3, which % 2 ? 0.02 : 0.12, 1e-3, &g);
+        s.options.model = models[_i];
+        s.options.tolerance = 1e-9;
+        int64_t far = 0;
+        while (s.overlap[far] >= (which % 2 ? 0 : 0.1)) far++;
+        s.overlap[far] = -1;
+        ck_assert_int_eq(scene_solve(&s, 0), NLC_OK);
+        double *force = copy(s.force, s.contacts), largest = 0;
+        for (int64_t c = 0; c < s.contacts; c++) largest = fmax(largest, force[c]);
+        for (double gap = 1e10; gap < 1.1e98; gap *= 1e8) {
+            s.overlap[far] = -gap;
+            for (int64_t c = 0; c < s.contacts && which < 2; c++) s.nonlocal[c] = 0;
+            nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, 0), NLC_OK));
+            for (int64_t c = 0; c < s.contacts; c++) nlc_assert_abs(s.force[c], force[c], 2 * s.options.tolerance * largest);
+        }
+        free(force);
+        scene_free(&s);
+    }
+}
+END_TEST
+
 /* Other options and back: as if the network had been built with them. */
 START_TEST(options_can_be_exchanged)
 {
@@ -602,6 +631,7 @@ int main(void)
     tcase_add_test(t, assembly);
     tcase_add_test(t, strided_particles);
     tcase_add_test(t, start_does_not_matter);
+    tcase_add_loop_test(t, wide_gaps, 0, 5);
     tcase_add_test(t, options_can_be_exchanged);
     tcase_add_loop_test(t, no_solution_is_survived, 0, 2);
     tcase_add_test(t, too_few_sweeps_are_said);
