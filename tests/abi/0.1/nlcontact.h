@@ -57,7 +57,7 @@ extern "C" {
     X(NLC_ERROR_FORCE,          -25, "a contact force is not finite",                                    "contact")         \
     X(NLC_ERROR_TOTAL_FORCE,    -26, "a force or torque to be added to is not finite",                   "particle or wall")\
     X(NLC_ERROR_COINCIDENT,     -27, "two contacts of one particle lie in the same direction",           "contact")         \
-    X(NLC_ERROR_RANGE,          -28, "a result is beyond the range of double",                           "contact or -1")   \
+    X(NLC_ERROR_RANGE,          -28, "a result is or might be beyond the range of double",               "contact or -1")   \
     X(NLC_ERROR_UNSTABLE,       -29, "the state is beyond the end of the stable branch",                 "-1")              \
     X(NLC_ERROR_SLIDING,        -30, "a direction of sliding is not a unit vector along the surfaces",   "contact")         \
     X(NLC_ERROR_POSITION,       -31, "a position is not finite",                                         "particle or wall")\
