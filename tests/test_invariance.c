@@ -409,7 +409,7 @@ START_TEST(wide_gaps)
         ck_assert_int_eq(scene_solve(&s, 0), NLC_OK);
         double *force = copy(s.force, s.contacts), largest = 0;
         for (int64_t c = 0; c < s.contacts; c++) largest = fmax(largest, force[c]);
-        for (double gap = 1e10; gap < 1.1e98; gap *= 1e8) {
+        for (double gap = 1e10; gap < 1.1e110; gap *= 1e10) {
             s.overlap[far] = -gap;
             for (int64_t c = 0; c < s.contacts && which < 2; c++) s.nonlocal[c] = 0;
             nlc_assert_quiet(ck_assert_int_eq(scene_solve(&s, 0), NLC_OK));
