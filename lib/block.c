@@ -65,7 +65,7 @@ double nlc_block_norm(const nlc_network *n, const double *normal, int64_t partic
     const double U = nlc_scale_of(n, particle), m = b.count;
     double squares = 2 * U * U * n->settings.model->squares(&b, nlc_kernel_of(n, particle)), trace = 0;
     for (int c = 0; c < b.count; c++) {
-        const double v = b.force[c] * own_of(n, entry[c]);
+        const double v = capped(b.force[c] * own_of(n, entry[c]));
         trace += v;
         squares += v * v;
     }
@@ -90,7 +90,7 @@ int nlc_block_matrix(double *B, int64_t *side, const nlc_network *n, const doubl
     const double U = nlc_scale_of(n, particle);
     memset(B, 0, (size_t)(rows * rows) * sizeof *B);
     for (int a = 0; a < b.count; a++) {
-        B[row[a] * rows + row[a]] += root[a] * root[a] * own_of(n, entry[a]);
+        B[row[a] * rows + row[a]] += capped(root[a] * root[a] * own_of(n, entry[a]));
         n->settings.model->coefficients(coefficient, &b, a, nlc_kernel_of(n, particle));
         for (int d = 0; d < a; d++) {
             const double v = capped(U * coefficient[d] * root[a] * root[d]);

@@ -115,15 +115,16 @@ static void reduce(double *B, int n, double *a, double *b, double *v, double *p)
         if (rest <= 1e-32 * s + 1e-200) continue; /* what is so small in a matrix of about 1 moves no eigenvalue */
         b[k] = first > 0 ? -sqrt(s) : sqrt(s);
         v[k + 1] = first - b[k];
-        const double h = v[k + 1] * v[k + 1] + rest;
-        for (int i = k + 2; i < n; i++) v[i] = B[i * n + k];
+        const double per_length = 1 / sqrt(v[k + 1] * v[k + 1] + rest); /* of a small v beside large elements, too */
+        v[k + 1] *= per_length;
+        for (int i = k + 2; i < n; i++) v[i] = B[i * n + k] * per_length;
         for (int i = k + 1; i < n; i++) {
             p[i] = 0;
             for (int j = k + 1; j < n; j++) p[i] += B[i * n + j] * v[j];
-            p[i] *= 2 / h;
+            p[i] *= 2;
             projection += v[i] * p[i];
         }
-        for (int i = k + 1; i < n; i++) p[i] -= projection / h * v[i];
+        for (int i = k + 1; i < n; i++) p[i] -= projection * v[i];
         for (int i = k + 1; i < n; i++)
             for (int j = k + 1; j < n; j++) B[i * n + j] -= v[i] * p[j] + p[i] * v[j];
     }

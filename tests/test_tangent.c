@@ -258,6 +258,20 @@ START_TEST(tridiagonal)
 }
 END_TEST
 
+/* A row of e beside elements of 1: their largest eigenvalue is n - 1 and moves by less than the square of e; in units of any size. */
+START_TEST(small_beside_large)
+{
+    double B[64], work[32];
+    for (int n = 3; n <= 8; n++)
+        for (int p = 7; p < 250; p += 3)
+            for (int q = -40; q <= 140; q += 20) {
+                const double unit = pow(10, q), e = unit * pow(10, -p);
+                for (int i = 0; i < n * n; i++) B[i] = i == 0 ? 0 : i < n || i % n == 0 ? e * (1 + (i + i / n) % 3) : unit;
+                nlc_assert_quiet(nlc_assert_rel(nlc_largest_eigenvalue(B, n, work), unit * (n - 1), 1e-11));
+            }
+}
+END_TEST
+
 /* What the memory held before is of no importance. */
 START_TEST(memory_need_not_be_clean)
 {
@@ -407,6 +421,7 @@ int main(void)
     tcase_add_test(t, symmetric_crowd);
     tcase_add_test(t, crowd_of_two);
     tcase_add_test(t, tridiagonal);
+    tcase_add_test(t, small_beside_large);
     tcase_add_test(t, memory_need_not_be_clean);
     tcase_add_test(t, units_do_not_matter);
     tcase_add_test(t, open_contacts_do_not_matter);
