@@ -1071,8 +1071,8 @@ NLC_API nlc_status nlc_contacts_from_pairs(double *NLC_RESTRICT overlap, double 
  * capacity    room in i and j
  * particles   as for nlc_contacts_from_pairs; count is that of all particles with ghosts (LAMMPS: nlocal + nghost)
  * positions   likewise
- * lists       every pair once: half lists, in LAMMPS with newton on.  A pair that is listed twice becomes two contacts in the same
- *             direction, which nlc_solve refuses.
+ * lists       every pair once: half lists, in LAMMPS with newton on; among ranks a pair of two ranks on both of them, in LAMMPS
+ *             with newton off.  A pair that is listed twice becomes two contacts in the same direction, which nlc_solve refuses.
  * reach       >= 0 [m]: see nlc_reach
  * info        or NULL
  *
