@@ -7,6 +7,8 @@ VERSION := $(shell sed -n 's/^.define NLC_VERSION_[A-Z]* //p' $(dir $(lastword $
 # Raised only by what breaks a program built with an older header, whatever the version is then called: see CONTRIBUTING.
 SO_MAJOR := 0
 
+# Compilers note the folder that PWD names: let it be the one that PREFIX_MAP replaces, not a symbolic link to it.
+export PWD := $(CURDIR)
 S := $(patsubst %/,%,$(dir $(lastword $(MAKEFILE_LIST))))
 B ?= build
 PREFIX ?= /usr/local
@@ -45,7 +47,7 @@ ALL_CPPFLAGS = -I$(S)/include $(CPPFLAGS)
 ALL_CFLAGS = -std=c11 $(WARNINGS) -ffile-prefix-map=$(S)/= $(CFLAGS)
 # No contraction into fused multiply-adds behind our back, and no errno from sqrt: results and flags are as written.
 # No folder's name in debug information either: the same bytes wherever it is built.
-PREFIX_MAP = -ffile-prefix-map=$(CURDIR)=. -ffile-prefix-map=$(S)/lib=lib -ffile-prefix-map=$(S)/include=include
+PREFIX_MAP = $(if $(filter-out /,$(CURDIR)),'-ffile-prefix-map=$(CURDIR)=.') -ffile-prefix-map=$(S)/lib=lib -ffile-prefix-map=$(S)/include=include
 LIB_CFLAGS = -std=c11 $(WARNINGS) -fPIC -fvisibility=hidden -ffp-contract=off -fno-math-errno $(PREFIX_MAP) $(CFLAGS)
 DEPFLAGS = -MMD -MP
 LIBS := -lm
@@ -289,6 +291,13 @@ setup-plots: ## install gnuplot, for make plots
 	@sh $(S)/tests/setup plots
 
 # ---- installation
+# Folders whose names make and the shell would take apart, or that mean another one wherever they are used, are refused.
+ifneq ($(filter install uninstall,$(MAKECMDGOALS)),)
+$(foreach v,DESTDIR prefix exec_prefix includedir libdir mandir pkgconfigdir cmakedir,\
+    $(if $(word 2,$($v)),$(error $v=$($v): folders with spaces are not supported)))
+$(foreach v,prefix exec_prefix includedir libdir mandir pkgconfigdir cmakedir,\
+    $(if $(filter /%,$($v)),,$(error $v=$($v): has to begin with /)))
+endif
 install: lib $(PC) $(CMAKE) ## install header, Fortran module, libraries, man pages, files for pkg-config and CMake
 	$(INSTALL) -d $(DESTDIR)$(includedir) $(DESTDIR)$(libdir) $(DESTDIR)$(pkgconfigdir) $(DESTDIR)$(cmakedir)
 	$(INSTALL) -d $(DESTDIR)$(mandir)/man3 $(DESTDIR)$(mandir)/man7
@@ -312,7 +321,7 @@ uninstall: ## remove what install put there
 
 DISTNAME := nlcontact-$(VERSION)
 DIST_FILES = Makefile README NEWS CONTRIBUTING SECURITY COPYING CITATION.cff nlcontact.pc.in nlcontact-config.cmake.in .clang-tidy \
-	nlcontact-config-version.cmake.in include lib tests bench man tools examples packaging
+	nlcontact-config-version.cmake.in include lib tests bench man tools examples packaging .clang-format
 RELEASED := $(shell sed -n 's/^date-released: *//p' $(S)/CITATION.cff)
 dist: ## make a source archive, the same bytes every time
 	@mkdir -p $(B)
@@ -325,7 +334,8 @@ dist: ## make a source archive, the same bytes every time
 DEB := $(B)/deb/$(DISTNAME)
 DEBIAN_FILES := changelog control copyright libnlcontact-dev.docs libnlcontact-dev.examples libnlcontact-dev.install \
 	libnlcontact0.install libnlcontact0.symbols rules source tests watch
-deb: dist ## make Debian packages, in build/deb; with DEB_BUILD_OPTIONS=nocheck without running the tests
+deb: dist ## make Debian packages, in build/deb, in a clone; with DEB_BUILD_OPTIONS=nocheck without running the tests
+	@[ -d $(S)/debian ] || { echo "debian/ is in the repository, not in the archive"; exit 1; }
 	rm -rf $(B)/deb
 	mkdir $(B)/deb
 	cp $(B)/$(DISTNAME).tar.gz $(B)/deb/$(subst -,_,$(DISTNAME)).orig.tar.gz

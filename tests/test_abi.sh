@@ -47,11 +47,31 @@ assertions() { # layout, comparison of sizes
     }
     $1 == "value" { demand($2 " == " $3, $2 " has changed") }' "$1"
 }
+# The compiler compares types: what a release's header declares is declared again after today's, and its fields are those that
+# today's structs begin with.
+prototypes() { awk '/^NLC_API/ { on = 1 } on { print } /;/ { on = 0 }' "$1"; }
+fields() { awk '/^typedef struct [a-z_]+ {$/ { on = $3 } on && !/^[{}]|^typedef/ { gsub(/ +/, " "); print on ":" $0 } /^}/ { on = "" }' "$1"; }
+compare_types() { # the folder of an older release
+    { echo '#include <nlcontact.h>' && prototypes "$1/nlcontact.h"; } >"$tmp/types.c"
+    grep -q '^NLC_API.*nlc_solve' "$tmp/types.c" || fail "no functions found in $1/nlcontact.h"
+    $CC ${CFLAGS-} -std=c11 -ffreestanding -fsyntax-only -I"$S/include" "$tmp/types.c" || fail "functions of ${1##*/} are declared otherwise"
+    fields "$1/nlcontact.h" >"$tmp/fields"
+    fields "$abi/$current/nlcontact.h" >"$tmp/today"
+    grep -q '^nlc_info: int64_t culprit;' "$tmp/fields" || fail "no fields found in $1/nlcontact.h"
+    awk -F: '
+    NR == FNR { today[$1, ++count[$1]] = $2; next }
+    today[$1, ++seen[$1]] != $2 { print $1 ":" $2; wrong = 1 }
+    END { exit wrong }' "$tmp/today" "$tmp/fields" || fail "the fields above of ${1##*/} are not what today's structs begin with"
+}
 models=0
 compile() {
     "$@" -std=c11 -ffreestanding -fsyntax-only -I"$S/include" "$tmp/layout.c" || fail "$release: does not hold: $*"
     models=$((models + 1))
 }
+{ cat "$tmp/nodes" && git -C "$S" tag -l 'v*.0' 2>/dev/null | sed -n 's/^v\([0-9]*\.[0-9]*\)\.0$/\1/p'; } >"$tmp/releases"
+while read -r release; do
+    [ -f "$abi/$release/layout" ] || fail "nothing is recorded of $release: make abi-baseline, or bring it back"
+done <"$tmp/releases"
 for layout in "$abi"/*/layout; do
     folder=${layout%/layout} release=${folder##*/}
     if [ "$release" = "$current" ]; then compare='=='; else compare='>='; fi
@@ -74,6 +94,7 @@ for layout in "$abi"/*/layout; do
     # What came later lies behind everything that was there, padding at a struct's end included: an older program may have left
     # anything in it.
     if [ "$release" != "$current" ]; then
+        compare_types "$folder"
         awk '
         NR == FNR { if ($1 == "struct") for (k = 3; k <= 5; k++) size[$2, k] = $k; if ($1 == "field") old[$2]; next }
         $1 == "field" && !($2 in old) {

@@ -73,8 +73,12 @@ cp -r "$source" "$tmp/copy"
 find "$tmp/copy" -exec touch -d '2001-02-03 04:05:06' {} +
 (umask 077 && LC_ALL=C TZ=Asia/Tokyo && export LC_ALL TZ && run_make -j2 -C "$tmp/copy" B=a/folder/to/build/in lib)
 (cd "$source/lib" && run_make -j2 -f ../Makefile B="$tmp/absolute" lib)
+# From a folder with a space in its name, by way of a symbolic link to it.
+cp -r "$source" "$tmp/a copy"
+ln -s "a copy" "$tmp/link to a copy"
+(cd "$tmp/link to a copy" && run_make -j2 lib)
 for file in libnlcontact.a libnlcontact.so."$VERSION"; do
-    for other in "$tmp/copy/a/folder/to/build/in" "$tmp/absolute"; do
+    for other in "$tmp/copy/a/folder/to/build/in" "$tmp/absolute" "$tmp/a copy/build"; do
         cmp "build/$file" "$other/$file" || fail "$file has other bytes when it is built in another folder"
     done
     ! grep -qF "$tmp" "build/$file" || fail "$file knows where it was built"
