@@ -137,6 +137,19 @@ run_make uninstall $where
 left=$(find "$stage" ! -type d)
 [ -z "$left" ] || fail "uninstall leaves:" $left
 
+# A folder that make would take apart, or that is another one elsewhere, is refused before anything is touched.
+mkdir "$tmp/odd" && touch "$tmp/odd/My"
+refused() { # the name of a variable, its value
+    ! (cd "$tmp/odd" && $MAKE -s -f "$S/Makefile" B="$B" DESTDIR="$stage" "$3" "$1=$2" >"$tmp/log" 2>&1) || fail "make $3 $1=$2 is not refused"
+    grep -q "$1=" "$tmp/log" || { cat "$tmp/log"; fail "make $3 $1=$2 does not say why it is refused"; }
+    [ "$(ls "$tmp/odd")" = My ] || fail "make $3 $1=$2 does something"
+}
+for goal in install uninstall; do
+    refused prefix "$tmp/odd/My Files" $goal
+    refused DESTDIR "$tmp/odd/My Files" $goal
+    refused libdir lib $goal
+done
+
 # Each folder's variable moves what belongs there and nothing else, and uninstall follows; what others put there stays.
 run_make install DESTDIR="$stage" PREFIX=/p
 (cd "$stage" && find . ! -type d | sort) >"$tmp/plain"
