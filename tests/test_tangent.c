@@ -324,6 +324,27 @@ START_TEST(units_do_not_matter)
 }
 END_TEST
 
+/* Slopes that no double can hold, above and below. */
+START_TEST(slopes_out_of_range)
+{
+    static const double size[] = {5e-324, 1.7e308};
+    for (int k = 0; k < 2; k++) {
+        scene s;
+        scene_init(&s);
+        const int32_t m = scene_material(&s, 1, 0.3), a = scene_particle(&s, 1, m);
+        scene_contact(&s, a, scene_particle(&s, 1, m), 1, 1, 0, 0);
+        s.options.model = NLC_MODEL_HERTZ;
+        s.options.stiffness = size + k;
+        ck_assert_int_eq(scene_build(&s), NLC_OK);
+        double out[2] = {7, 7}, in = 1;
+        nlc_assert_quiet(ck_assert_int_eq(nlc_tangent(s.network, out, &in, size + k, s.normal, 0), NLC_ERROR_RANGE));
+        nlc_assert_quiet(ck_assert_int_eq(nlc_tangent_bound(s.network, out, size + k, s.normal, 0), NLC_ERROR_RANGE));
+        for (int c = 0; c < 2; c++) nlc_assert_same(out[c], 7);
+        scene_free(&s);
+    }
+}
+END_TEST
+
 /* What is said of contacts without force has no part in it, however large. */
 START_TEST(open_contacts_do_not_matter)
 {
@@ -424,6 +445,7 @@ int main(void)
     tcase_add_test(t, small_beside_large);
     tcase_add_test(t, memory_need_not_be_clean);
     tcase_add_test(t, units_do_not_matter);
+    tcase_add_test(t, slopes_out_of_range);
     tcase_add_test(t, open_contacts_do_not_matter);
     tcase_add_test(t, equal_directions);
     tcase_add_test(t, close_and_large);
