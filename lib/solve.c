@@ -16,11 +16,11 @@
 /* Largest stiffness times coupling times root of overlap, as a power of 2; about 1 in anything physical. */
 #define COUPLING 200
 
-/* Whether numbers of this size can be calculated with: the largest overlap or gap, and the unit of overlaps. */
-static nlc_status check_range(double largest, double overlap, int stiffness_exponent, int coupling_exponent)
+/* Whether overlaps and gaps of this size can be calculated with, in whatever unit. */
+static nlc_status check_range(double overlap, int stiffness_exponent, int coupling_exponent)
 {
     const int e = nlc_exponent_above(overlap) + HEADROOM;
-    if (nlc_exponent_above(largest) + HEADROOM > 1000 || stiffness_exponent + e + (e > 0 ? e / 2 + 1 : 0) > 1000) return NLC_ERROR_RANGE;
+    if (e > 1000 || stiffness_exponent + e + (e > 0 ? e / 2 + 1 : 0) > 1000) return NLC_ERROR_RANGE;
     return coupling_exponent + stiffness_exponent + (e - HEADROOM) / 2 > COUPLING ? NLC_ERROR_RANGE : NLC_OK;
 }
 
@@ -31,9 +31,8 @@ static nlc_status check(nlc_network *n, const double *overlap, const double *nor
     if ((*culprit = nlc_first_not_finite(overlap, nlc_is_finite(largest) ? 0 : n->contact_count)) >= 0) return NLC_ERROR_OVERLAP;
     if ((*culprit = nlc_first_bad_normal(n, normal)) >= 0) return NLC_ERROR_NORMAL;
     if ((*culprit = nlc_first_not_finite(nonlocal, nlc_is_finite(n->top.nonlocal) ? 0 : n->contact_count)) >= 0) return NLC_ERROR_NONLOCAL;
-    if (nlc_is_shared(n)) return NLC_OK; /* the unit is one that all ranks know together */
-    n->top.overlap = nlc_unit_of_overlaps(overlap, n->contact_count, largest);
-    return check_range(largest, n->top.overlap, n->stiffness_exponent, n->coupling_exponent);
+    if (!nlc_is_shared(n)) n->top.overlap = nlc_unit_of_overlaps(overlap, n->contact_count, largest); /* else all ranks find it together */
+    return check_range(largest, n->stiffness_exponent, n->coupling_exponent);
 }
 
 void nlc_start_over(nlc_outcome *out)
@@ -124,7 +123,6 @@ static bool meet(nlc_network *n, nlc_status status, const double *overlap, nlc_o
         top[1] = nlc_largest_magnitude(n->stiffness, n->contact_count);
         top[2] = n->top.nonlocal;
         top[5] = nlc_largest_magnitude(n->largest, n->body_count);
-        status = check_range(top[0], top[5], n->stiffness_exponent, n->coupling_exponent);
     }
     nlc_meet(n, NLC_SOLVE, status, out->info.culprit, n->largest, top, 6);
     nlc_clamp_ghosts(n, n->largest, 0, top[0]);
@@ -132,7 +130,7 @@ static bool meet(nlc_network *n, nlc_status status, const double *overlap, nlc_o
     n->top = (nlc_tops){nlc_unit_of_overlaps(top + 5, 1, top[0]), top[1], top[2], -1};
     if (nlc_is_over(n, out)) return false;
     out->info.culprit = -1;
-    out->status = check_range(top[0], n->top.overlap, (int)top[3], (int)top[4]);
+    out->status = check_range(top[0], (int)top[3], (int)top[4]);
     if (out->status != NLC_OK) nlc_take_leave(n, 0, out);
     return out->status == NLC_OK;
 }
