@@ -220,7 +220,13 @@ double nlc_largest_over_ranks(nlc_network *n, double here, int64_t *where)
 
 void nlc_exchange_sides(nlc_network *n, double *side)
 {
-    if (nlc_is_shared(n) && wait_for(n, EXCHANGE)) exchange(n, side);
+    if (!nlc_is_shared(n)) return;
+    if (wait_for(n, EXCHANGE)) {
+        exchange(n, side);
+        return;
+    }
+    /* all is over: what a ghost was told before may be in other units */
+    for (int64_t s = 0; s < n->straddling; s++) side[nlc_ghost_side(n, nlc_straddling(n)[s])] = 0;
 }
 
 void nlc_exchange_particles(nlc_network *n, double *value)
