@@ -45,9 +45,14 @@ static double overlap_at(const nlc_iteration *q, const vectors *v, int64_t c)
 
 static void start(const nlc_iteration *q, vectors *v)
 {
-    if (v->sides) nlc_split_sides(q->n, v->x);
-    else
-        for (int64_t c = 0; c < v->length; c++) v->x[c] = nlc_scaled_overlap(q, c);
+    if (v->sides) {
+        nlc_split_sides(q->n, v->x);
+        return;
+    }
+    for (int64_t c = 0; c < v->length; c++) {
+        const double x = nlc_scaled_overlap(q, c);
+        v->x[c] = x > -NLC_FARTHEST ? x : -NLC_FARTHEST; /* where anderson.c would put it: its differences must not be as wide */
+    }
 }
 
 /*

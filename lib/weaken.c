@@ -122,6 +122,7 @@ static double residual(double *x, double *y, int64_t count)
 {
     double norm = 0;
     for (int64_t c = 0; c < count; c++) {
+        if (x[c] < -NLC_FARTHEST) x[c] = -NLC_FARTHEST; /* as in mixed.c */
         if (y[c] > 0 && x[c] < -y[c]) x[c] = -y[c];
         if (x[c] > 0 && y[c] < -x[c]) y[c] = -x[c];
         y[c] = x[c] <= 0 && y[c] <= 0 ? 0 : y[c] - x[c];
