@@ -125,7 +125,7 @@ void nlc_relax(nlc_iteration *q)
     nlc_exchange_sides(n, n->side);
     for (int64_t s = 0; s < n->straddling; s++) {
         const int64_t c = nlc_straddling(n)[s];
-        const double a = n->side[2 * c], b = n->side[2 * c + 1];
-        n->force[c] = a < b ? a : b;
+        const double a = n->side[2 * c], b = n->side[2 * c + 1], less = a < b ? a : b;
+        n->force[c] = less > 0 ? less : 0; /* no owner has a negative one, which may be brought all the same */
     }
 }
