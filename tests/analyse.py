@@ -68,6 +68,8 @@ def main():
             tools.append(tool)
         else:
             print(f"analyse: no {tool} here: left out")
+    if not tools:
+        sys.exit("analyse: none of these tools is here")
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         for findings in pool.map(lambda work: analyse(*work), [(t, f) for t in tools for f in files(t)]):
             for finding in findings:
