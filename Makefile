@@ -131,7 +131,7 @@ bench: $(addprefix $(B)/bench/,bench roofline steps functions tradeoff skipping 
 	@$(B)/bench/kept $(PACKING)
 	@$(B)/bench/skipping --csv $(RESULTS)/skipping.csv $(PACKING)
 	@$(B)/bench/scale --csv $(RESULTS)/scale.csv
-bench-large: $(B)/bench/tradeoff $(B)/bench/scale ## the same on ten million contacts; some 20 minutes and 4 GB
+bench-large: $(B)/bench/tradeoff $(B)/bench/scale ## the same on ten million contacts; some 20 minutes and 6 GB
 	@mkdir -p $(RESULTS)
 	@$(B)/bench/scale --csv $(RESULTS)/scale_large.csv 1.1e7
 	@$(B)/bench/tradeoff --csv $(RESULTS)/tradeoff_large.csv ordered:lattice:75

@@ -16,7 +16,7 @@ static const char usage[] =
     "\n"
     "ns per contact of what a time step needs, on packings made for it, in random order (lattice:N, see bench/README), as\n"
     "numbered by nlc_order (ordered:lattice:N) and in the order of space (sorted:N), from a thousand contacts to LARGEST\n"
-    "(default: 1.1e6; 1.1e7 takes some minutes and 3 GB).\n";
+    "(default: 1.1e6; 1.1e7 takes some minutes and 6 GB).\n";
 
 /* Cells along an edge: half decades of contacts. */
 static const int cells[] = {4, 5, 7, 11, 16, 24, 35, 51, 75};

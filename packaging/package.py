@@ -2,7 +2,8 @@
 """Recipe for Spack.  It looks for nlcontact-VERSION.tar.gz, which `make dist` makes, where spack is run:
 
     spack repo create nlc                                   (once; then: spack repo add nlc)
-    cp packaging/package.py nlc/packages/nlcontact/         (below the folder that spack repo create names)
+    mkdir nlc/packages/nlcontact                            (below the folder that spack repo create names)
+    cp packaging/package.py nlc/packages/nlcontact/
     spack install --no-checksum nlcontact
 
 Built with Spack 0.23; in Spack 1.0 the base class has moved.

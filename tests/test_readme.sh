@@ -10,7 +10,7 @@ $CC -std=c99 -Wall -Wextra -Werror -I"$S/include" "$dir/step.c" "$B/libnlcontact
 $CXX -std=c++11 -Wall -Wextra -Werror -I"$S/include" "$dir/step.cpp" "$B/libnlcontact.a" -lm -o "$dir/step++"
 for program in step step++; do
     out=$(${EMULATOR-} "$dir/$program")
-    grep -qF "    $out" "$S/README" || { echo "test_readme: the README does not show: $out"; exit 1; }
+    [ -n "$out" ] && grep -qF "    $out" "$S/README" || { echo "test_readme: the README does not show: $out"; exit 1; }
 done
 lines=$(wc -l < "$dir/step.c")
 [ "$lines" -le 30 ] || { echo "test_readme: the example has grown to $lines lines"; exit 1; }
