@@ -684,6 +684,43 @@ START_TEST(odd_numbers)
 }
 END_TEST
 
+/*
+ * Contacts of overlaps around 1e190 that ghosts push open by 1e130 times as much in the only sweep there is: their displacements end at
+ * the range of double, and nothing overflows.
+ */
+START_TEST(opened_beyond_the_range)
+{
+    rng g = {4};
+    scene s;
+    ranks w;
+    make(&s, NLC_MODEL_GONZALEZ_CUITINO, 0, &g);
+    for (int64_t k = 0; k < s.particles; k++) s.radius[k] = ldexp(s.radius[k], 630);
+    for (int64_t m = 0; m < s.materials; m++) s.rows[m].young = ldexp(s.rows[m].young, -900);
+    for (int64_t c = 0; c < s.contacts; c++) s.overlap[c] = ldexp(s.overlap[c], 630);
+    s.options.max_sweeps = 1;
+    share_out(&w, &s, RANKS, 1, &g);
+    ranks_run(&w, rank_build);
+    ranks_run(&w, rank_solve);
+    const int64_t calls = rank_calls(&w.rank[0]);
+    double least = 0;
+    for (int64_t at = 4; at < calls; at += 3) { /* exchanges, but for that of the particles' sizes */
+        for (int q = 0; q < RANKS; q++) {
+            for (int64_t c = 0; c < w.rank[q].s.contacts; c++) w.rank[q].s.nonlocal[c] = 0;
+            w.rank[q].odd_at = at;
+            w.rank[q].odd = -1e130;
+        }
+        nlc_assert_quiet(ranks_run(&w, rank_solve));
+        for (int q = 0; q < RANKS; q++) {
+            ck_assert(w.rank[q].status >= 0 && is_usable(&w.rank[q]));
+            for (int64_t c = 0; c < w.rank[q].s.contacts; c++) least = fmin(least, w.rank[q].s.nonlocal[c]);
+        }
+    }
+    ck_assert(least < -1e300);
+    ranks_free(&w);
+    scene_free(&s);
+}
+END_TEST
+
 /* After a task in which one rank finds something wrong with what it was given. */
 static void demand_error(ranks *w, void (*task)(rank *), int where, nlc_status status, int64_t culprit)
 {
@@ -1130,6 +1167,7 @@ int main(void)
     tcase_add_test(t, alone_after_a_failure);
     tcase_add_loop_test(t, failing_twice, 0, 4);
     tcase_add_loop_test(t, odd_numbers, 0, 2 * MODELS);
+    tcase_add_test(t, opened_beyond_the_range);
     tcase_add_test(t, failing_beside_a_hard_one);
     tcase_add_loop_test(t, wrong_arguments, 0, MODELS);
     tcase_add_test(t, other_errors);
