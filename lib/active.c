@@ -223,13 +223,27 @@ static bool is_loaded(const nlc_network *n, int64_t k)
     return loaded && idle;
 }
 
+/* The least force of a contact that has one: so that it is seen to, however much others are squeezed. */
+#define LEAST 1e-300
+
+static double force_in_unit(const nlc_iteration *q, int64_t c)
+{
+    const nlc_network *n = q->n;
+    const double y = q->overlap[c] * q->load + n->current[c] * q->per_overlap;
+    const double force = nlc_law(nlc_scaled_stiffness(q, c), y < NLC_FARTHEST ? y : NLC_FARTHEST);
+    return force > LEAST ? force : LEAST;
+}
+
+/* In units of an iteration: in the caller's, what forces do may be out of range where sweeps have run out or coupling is weakened. */
 int64_t nlc_check_rest(nlc_network *n, const double *overlap, const double *normal, int64_t *culprit)
 {
-    const double most = NLC_FARTHEST * n->top.overlap; /* as in an iteration: where sweeps have run out it is left at that */
+    nlc_iteration q;
     int64_t touching = 0;
-    nlc_set_units(n, 0, 0);
-    for (int64_t c = 0; c < n->contact_count; c++)
-        if (!(n->force[c] > 0)) n->current[c] = 0;
+    nlc_iteration_units(&q, n, overlap, normal, 1);
+    for (int64_t c = 0; c < n->contact_count; c++) {
+        if (n->force[c] > 0) n->force[c] = force_in_unit(&q, c);
+        else n->current[c] = 0;
+    }
     if (!nlc_is_linear(n->settings.model->shape)) nlc_set_approach(n, n->force);
     for (int64_t k = 0; k < n->particle_count; k++) {
         if (n->degree[k] == 0 || !is_loaded(n, k) || move_rest(n, normal, k)) continue;
@@ -238,7 +252,7 @@ int64_t nlc_check_rest(nlc_network *n, const double *overlap, const double *norm
     }
     for (int64_t k = 0; k < n->particle_count; k++) n->changed[k] = 0;
     for (int64_t c = 0; c < n->contact_count; c++) {
-        if (overlap[c] + n->current[c] > most) n->current[c] = most - overlap[c];
+        if (!(n->force[c] > 0)) n->current[c] = nlc_in_callers_unit(&q, c);
         if (n->mark[c] != NLC_OUT || overlap[c] + n->current[c] <= 0) continue;
         touching++;
         if (n->i[c] < n->particle_count) n->changed[n->i[c]] = 1;

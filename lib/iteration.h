@@ -74,7 +74,8 @@ void nlc_iteration_units(nlc_iteration *q, nlc_network *network, const double *o
 void nlc_iteration_start(nlc_iteration *q, nlc_network *network, const double *overlap, const double *normal, double part);
 /* Largest overlap on the two bodies of a contact: the floor of the slopes tells. */
 double nlc_overlap_nearby(const nlc_iteration *q, int64_t c);
-/* Back to the caller's units. */
+/* A displacement back in the caller's unit, where contacts are not beyond the farthest; all of them. */
+double nlc_in_callers_unit(const nlc_iteration *q, int64_t c);
 void nlc_iteration_end(nlc_iteration *q);
 
 /* What is seen of many residuals: the largest, the largest force, whether an iterate is below 0 or this many times the force. */

@@ -77,15 +77,18 @@ double nlc_overlap_nearby(const nlc_iteration *q, int64_t c)
     return root * root;
 }
 
+double nlc_in_callers_unit(const nlc_iteration *q, int64_t c)
+{
+    const int unit = q->n->length_unit;
+    const double lowest = -nlc_pow2(unit < 0 ? 1020 + unit : 1020); /* how far it is open makes no difference */
+    const double highest = NLC_FARTHEST - q->overlap[c] * q->load, g = q->n->current[c] < highest ? q->n->current[c] : highest;
+    return (g > lowest ? g : lowest) / q->per_overlap;
+}
+
 static void finish(void *work, int64_t from, int64_t end)
 {
     const nlc_iteration *q = work;
-    const int unit = q->n->length_unit;
-    const double lowest = -nlc_pow2(unit < 0 ? 1020 + unit : 1020); /* how far it is open makes no difference */
-    for (int64_t c = from; c < end; c++) {
-        const double highest = NLC_FARTHEST - q->overlap[c] * q->load, g = q->n->current[c] < highest ? q->n->current[c] : highest;
-        q->n->current[c] = (g > lowest ? g : lowest) / q->per_overlap;
-    }
+    for (int64_t c = from; c < end; c++) q->n->current[c] = nlc_in_callers_unit(q, c);
 }
 
 void nlc_iteration_end(nlc_iteration *q)
