@@ -50,7 +50,7 @@ static void solve(host *h, int64_t step, nlc_info *info)
 static void do_not_solve(host *h, int64_t step, nlc_info *info)
 {
     info->residual = h->residual;
-    extrapolate(&h->c, h->span > 0 ? (double)(step - h->solved) / (double)h->span : 0, h->c.force);
+    extrapolate(&h->c, h->set.predict && h->span > 0 ? (double)(step - h->solved) / (double)h->span : 0, h->c.force);
 }
 
 /* Of what is added between two particles; walls have no part in LAMMPS' pressure. */
