@@ -36,7 +36,11 @@ packing read(const char *path)
         std::istringstream words(line);
         double v[6] = {};
         int number;
-        if (line.compare(0, 7, "# wall ") == 0) {
+        const bool periodic = line.compare(0, 11, "# periodic:") == 0 && line.find('1') != std::string::npos;
+        const bool wall = line.compare(0, 7, "# wall ") == 0;
+        if (periodic || (wall && line.find(" rigid ") == std::string::npos))
+            throw std::runtime_error("this example has no periodic boxes and no walls that yield");
+        if (wall) {
             words >> word >> word >> word >> word >> word >> word >> v[0] >> v[1] >> v[2] >> word >> v[3] >> v[4] >> v[5];
             p.wall_point.insert(p.wall_point.end(), v, v + 3);
             p.wall_normal.insert(p.wall_normal.end(), v + 3, v + 6);

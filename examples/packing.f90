@@ -39,6 +39,9 @@ contains
             do
                 read (unit, '(a)', iostat=status) line
                 if (status /= 0) exit
+                if ((line(1:11) == '# periodic:' .and. index(line, '1') > 0) .or. &
+                    (line(1:7) == '# wall ' .and. index(line, ' rigid ') == 0)) call give_up( &
+                    'this example has no periodic boxes and no walls that yield')
                 if (line(1:7) == '# wall ') then
                     walls = walls + 1
                     if (pass == 2) read (line(index(line, 'point') + 5:), *) wall_point(:, walls), words(1), wall_normal(:, walls)

@@ -14,6 +14,8 @@ REACH = 0.3  # gaps below this part of the mean radius make a candidate
 def read(path):
     with open(path, encoding='utf-8') as file:
         lines = file.read().splitlines()
+    if any(re.match('# periodic:.*1', line) or re.match('# wall (?!.* rigid )', line) for line in lines):
+        sys.exit('this example has no periodic boxes and no walls that yield')
     number = r'([-+.\w]+)'
     walls = [re.findall(number, line.split('point')[1].replace('inward_normal', '')) for line in lines if line.startswith('# wall ')]
     materials = [re.search(f' E {number} nu {number}', line).groups() for line in lines if line.startswith('# material type ')]

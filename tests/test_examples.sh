@@ -11,6 +11,7 @@ FC=${FC-gfortran} done='' skipped=''
 packing=$S/bench/data/b_die125_rd0.80.csv
 
 ${EMULATOR-} "$B/bench/packing" --csv "$packing" | grep '^total_force,' >"$tmp/expected"
+sed 's/plane rigid/plane type 1/' "$packing" >"$tmp/wall.csv"
 # Printed to 1e-6 N; the forces themselves agree to the tolerance of 1e-8, their sum to much better.
 same() {
     name=$1 && shift
@@ -20,6 +21,10 @@ same() {
         { split(expected, e, ","); ok = $1 == "total" && near($4, e[3]) && near($7, e[4]) && $10 == sprintf("%.3f", e[4] / e[3]) }
         END { exit !ok }' || fail "$name says '$(cat "$tmp/found")' and the packing program '$(cat "$tmp/expected")'"
     ! "$@" "$tmp/none" >"$tmp/found" 2>&1 || fail "$name finds nothing wrong with a missing file"
+    for other in "$S/bench/data/a_mono1000_periodic.csv" "$tmp/wall.csv"; do
+        ! "$@" "$other" >"$tmp/found" 2>&1 || fail "$name computes what it cannot, $other"
+        grep -q 'no periodic boxes' "$tmp/found" || fail "$name does not say what is wrong with $other: $(cat "$tmp/found")"
+    done
     done="$done $name"
 }
 skip() { skipped="$skipped; $1: $2"; }
