@@ -462,6 +462,27 @@ START_TEST(far_beyond_in_small_units)
 }
 END_TEST
 
+/* A cluster whose forces are nothing in the unit of another's: as on its own, and displacements stay nothing beside its gap. */
+START_TEST(nothing_beside_others)
+{
+    scene s[2];
+    for (int which = 0; which < 2; which++) { /* overlaps of 1e-200, beside 1e40 or on their own */
+        scene_init(&s[which]);
+        const int32_t soft = scene_material(&s[which], 1, 0.3);
+        for (int k = 0; k < 6; k++) scene_particle(&s[which], 1, soft);
+        scene_contact(&s[which], 0, 1, 1e-200, 1, 0, 0);
+        scene_contact(&s[which], 1, 2, 2e-200, 0, 1, 0);
+        scene_contact(&s[which], 2, 0, -1e-200, 1, 1, 0);
+        for (int c = 0; c < 2 && which == 0; c++) scene_contact(&s[which], 3 + c, 4 + c, 1e40, c, 1 - c, 0);
+        nlc_assert_quiet(ck_assert_int_ge(scene_solve(&s[which], NULL), NLC_OK));
+    }
+    for (int c = 0; c < 3; c++) nlc_assert_same(s[0].force[c], s[1].force[c]);
+    ck_assert(s[1].force[0] > 0 && !(s[1].force[2] > 0));
+    for (int c = 0; c < 3; c++) nlc_assert_abs(s[0].nonlocal[c], 0, 1e-230);
+    for (int which = 0; which < 2; which++) scene_free(&s[which]);
+}
+END_TEST
+
 /* Other options and back: as if the network had been built with them. */
 START_TEST(options_can_be_exchanged)
 {
@@ -674,6 +695,7 @@ int main(void)
     tcase_add_test(t, start_does_not_matter);
     tcase_add_loop_test(t, wide_gaps, 0, 5);
     tcase_add_loop_test(t, far_beyond_in_small_units, 0, 2);
+    tcase_add_test(t, nothing_beside_others);
     tcase_add_test(t, options_can_be_exchanged);
     tcase_add_loop_test(t, no_solution_is_survived, 0, 2);
     tcase_add_test(t, too_few_sweeps_are_said);
