@@ -665,6 +665,32 @@ START_TEST(idle_candidates_in_one_place)
 }
 END_TEST
 
+/*
+ * NLC_MODEL_SPHERE moves a contact by its own force, also where it is the only one on both particles: forces and displacements are those
+ * of one another, by a sweep of their own; two pairs apart, with a candidate, so that it is solved cluster by cluster.
+ */
+START_TEST(alone_on_a_sphere)
+{
+    scene s;
+    double moved[6];
+    scene_init(&s);
+    s.options.model = NLC_MODEL_SPHERE;
+    const int32_t m = scene_material(&s, 1e9, 0.3);
+    for (int k = 0; k < 6; k++) scene_particle(&s, 1, m);
+    for (int k = 0; k < 2; k++) scene_contact(&s, 2 * k, 2 * k + 1, 0.05, 0, 0, 1);
+    scene_contact(&s, 4, 5, -0.3, 0, 0, 1);
+    for (int k = 0; k < 2; k++) { /* from zeros, and from the result */
+        ck_assert_int_eq(scene_solve(&s, NULL), NLC_OK);
+        ck_assert_int_eq(nlc_sweep(s.network, moved, s.force, NULL, s.normal, NULL), NLC_OK);
+        for (int c = 0; c < 2; c++) {
+            ck_assert(fabs(moved[2 * c]) > 1e-4 * s.overlap[c]);
+            nlc_assert_abs(s.nonlocal[c], moved[2 * c] + moved[2 * c + 1], 1e-8 * s.overlap[c]); /* the default tolerance */
+        }
+    }
+    scene_free(&s);
+}
+END_TEST
+
 /* A ball between three walls, one of them open and 1e-5 to 1e-150 as stiff as the others: as many sweeps as without it, and no trap. */
 START_TEST(soft_and_open)
 {
@@ -1078,6 +1104,7 @@ int main(void)
     tcase_add_loop_test(t, touches_with_the_last_sweep, 0, 2);
     tcase_add_loop_test(t, circles_that_overlap, 0, 4);
     tcase_add_test(t, idle_candidates_in_one_place);
+    tcase_add_test(t, alone_on_a_sphere);
     tcase_add_loop_test(t, soft_and_open, 0, 2);
     tcase_add_test(t, softest_on_a_sphere);
     tcase_add_test(t, circles_of_many);
